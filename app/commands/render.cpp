@@ -1,0 +1,89 @@
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands/commands.h"
+#include "app/commands/flags.h"
+#include "app/commands/render.h"
+#include "app/report.h"
+#include "app/table.h"
+#include "techniques/base/files.h"
+
+namespace sightlines {
+
+void add_render_output_flags(CLI::App& command, RenderOutputs& outputs) {
+    command.add_option("--report", outputs.report, "Write what was measured, as JSON")->type_name("FILE.json");
+    command
+        .add_option("--error-out", outputs.error_picture,
+                    "Write the share of wrongly judged rays as a picture (asks for --reference)")
+        ->type_name("FILE.png");
+    command.add_option("--save-session", outputs.session, "Write the session, for `sightlines workspace`")
+        ->type_name("FILE.json");
+}
+
+void check_render_outputs(const RenderOutputs& outputs) {
+    check_extension(outputs.picture, {".png", ".hdr"});
+    if (!outputs.error_picture.empty()) check_extension(outputs.error_picture, {".png"});
+    check_outputs({outputs.picture, outputs.report, outputs.error_picture, outputs.session});
+}
+
+CommandOutput render_to_files(Session session, const RenderOutputs& outputs, Results& results, const CommonFlags& common,
+                              Progress& progress) {
+    check_render_outputs(outputs);
+    session.reference = session.reference || !outputs.error_picture.empty();
+    const RenderReport report = render_session(session, results, progress);
+    CommandOutput output{{}, report.scene->value.notes};
+    if (!session.environment.empty())
+        output.notes.push_back("the environment " + session.environment + " is left out: " + session.technique +
+                               " knows lights only");
+    progress.check();
+    if (outputs.picture.extension() == ".hdr")
+        write_image(outputs.picture, report.picture->value.radiance, session.display);
+    else
+        write_png(outputs.picture, shown_channel(report));
+    if (!outputs.error_picture.empty()) {
+        RenderReport as_errors = report;
+        as_errors.session.channel = Channel::visibility_error;
+        write_png(outputs.error_picture, shown_channel(as_errors));
+    }
+    const Json json = json_from_report(report);
+    if (!outputs.report.empty()) write_file(outputs.report, json_text(json));
+    if (!outputs.session.empty()) save_session(outputs.session, session);
+    if (common.json) output.text = json_text(json);
+    if (common.json || common.quiet) return output;
+    output.text = text_from_report(report) + "\nwrote " + outputs.picture.string() + "\n";
+    if (!outputs.error_picture.empty())
+        output.text += "wrote " + outputs.error_picture.string() + " (dark: no ray judged wrongly; brightest: " +
+                       percent_text(100.0 * static_cast<double>(visibility_error_shown)) + " or more)\n";
+    for (const auto& file : {outputs.report, outputs.session})
+        if (!file.empty()) output.text += "wrote " + file.string() + "\n";
+    return output;
+}
+
+void add_render_command(CLI::App& app, Command& chosen) {
+    struct Flags {
+        SessionFlags session;
+        RenderOutputs outputs;
+        CommonFlags common;
+    };
+    CLI::App& command = *app.add_subcommand("render", "Make a picture, and measure how");
+    const auto flags = std::make_shared<Flags>();
+    add_session_flags(command, flags->session);
+    command.add_option("--out", flags->outputs.picture, "The picture to write: .png, or .hdr (linear)")
+        ->required()
+        ->type_name("FILE");
+    add_render_output_flags(command, flags->outputs);
+    add_common_flags(command, flags->common);
+    command.footer("Example:\n  sightlines render --technique voxel_rows --scene atrium --lights 1024 --size 640x360 "
+                   "--reference --out atrium.png");
+    command.callback([flags, &chosen] {
+        chosen = {[flags](Progress& progress) {
+                      const Session session = session_with_flags({}, flags->session);
+                      Results results(thread_flag(flags->common), command_backend(session));
+                      return render_to_files(session, flags->outputs, results, flags->common, progress);
+                  },
+                  flags->common.quiet};
+    });
+}
+
+}  // namespace sightlines

@@ -1,0 +1,151 @@
+#include "app/report.h"
+
+#include <cmath>
+#include <limits>
+
+#include "app/table.h"
+#include "techniques/base/huge_buffer.h"
+
+namespace sightlines {
+namespace {
+
+double rays_per_second(const RenderResult& picture) {
+    return picture.seconds > 0.0 ? static_cast<double>(picture.rays) / picture.seconds : 0.0;
+}
+
+/// Share of the asked rays that are blocked, in percent.
+double blocked_percent(const RenderResult& picture) {
+    double blocked = 0.0, asked = 0.0;
+    for (std::size_t p = 0; p < picture.rays_asked.pixels.size(); ++p) {
+        const auto rays = static_cast<double>(picture.rays_asked.pixels[p]);
+        asked += rays;
+        blocked += rays * static_cast<double>(picture.shadow.pixels[p]);
+    }
+    return asked > 0.0 ? 100.0 * blocked / asked : 0.0;
+}
+
+std::string_view backend_name(Backend backend) { return backend == Backend::vulkan ? "vulkan" : "cpu"; }
+
+/// Every parameter with the value that was used, as people write it.
+Json all_parameters(const Session& session) {
+    Json all = Json::object();
+    const auto table = find_technique(session.technique).parameters;
+    for (const Parameter& row : table) {
+        const double value = parameter_value(table, technique_parameters(session), row.name);
+        const std::string name(row.name);
+        switch (row.kind) {
+            case ParameterKind::boolean: all[name] = value != 0.0; break;
+            case ParameterKind::choice: all[name] = parameter_text(row, value); break;
+            case ParameterKind::integer: all[name] = static_cast<std::int64_t>(value); break;
+            case ParameterKind::real: all[name] = value; break;
+        }
+    }
+    return all;
+}
+
+ImageScalar scalar_from(const Image<std::uint32_t>& counts) {
+    ImageScalar values(counts.size);
+    for (std::size_t p = 0; p < counts.pixels.size(); ++p) values.pixels[p] = static_cast<float>(counts.pixels[p]);
+    return values;
+}
+
+}  // namespace
+
+RenderReport render_session(const Session& session, Results& results, Progress& progress) {
+    RenderReport report;
+    report.session = session;
+    report.backend = results.backend(session);
+    const auto model = results.model(session, progress);
+    report.scene = results.scene(session, progress);
+    report.load_seconds = model->seconds + report.scene->seconds;
+    session_camera(session, report.scene->value);  // a wrong camera is refused before the long work
+    report.lights = results.lights(session, progress);
+    report.picture = results.picture(session, progress);
+    report.structure = results.structure(session, progress);
+    if (needs_reference(session)) {
+        report.reference = results.reference(session, progress);
+        report.errors = results.errors(session, progress);
+    }
+    return report;
+}
+
+Json json_from_report(const RenderReport& report) {
+    const RenderResult& picture = report.picture->value;
+    const Statistics& statistics = report.structure->value.statistics;
+    Json json = {{"technique", report.session.technique},
+                 {"scene", report.session.scene},
+                 {"time_s", report.session.time_s},
+                 {"triangles", report.scene->value.triangles.size()},
+                 {"lights", report.lights->value.size()},
+                 {"size", {report.session.size.width, report.session.size.height}},
+                 {"backend", backend_name(report.backend)},
+                 {"device", picture.device},
+                 {"seed", report.session.seed},
+                 {"parameters", all_parameters(report.session)}};
+    json["seconds"] = {{"load", report.load_seconds},
+                       {"build", statistics.build_seconds},
+                       {"render", picture.seconds}};
+    if (statistics.compress_seconds > 0.0) json["seconds"]["compress"] = statistics.compress_seconds;
+    json["rays"] = {{"asked", picture.rays}, {"traced", picture.rays_traced}};
+    json["mrays_per_second"] = 1e-6 * rays_per_second(picture);
+    json["blocked_percent"] = blocked_percent(picture);
+    json["memory_bytes"] = {{"structure", statistics.structure_bytes},
+                            {"uncompressed", statistics.uncompressed_bytes},
+                            {"peak", peak_memory_bytes()}};
+    if (report.errors) {
+        const ErrorMetrics& errors = report.errors->value;
+        json["seconds"]["reference"] = report.reference->value.seconds;
+        json["error"] = {{"visibility_percent", errors.visibility_percent},
+                         {"shadow_percent", errors.shadow_percent},
+                         {"rmse", errors.rmse},
+                         {"max_abs", errors.max_abs}};
+    }
+    return json;
+}
+
+std::string text_from_report(const RenderReport& report) {
+    const RenderResult& picture = report.picture->value;
+    const Statistics& statistics = report.structure->value.statistics;
+    const Session& session = report.session;
+    TextTable table;
+    const auto line = [&](const std::string& name, const std::string& value) { table.rows.push_back({name, value}); };
+    line("technique", std::string(find_technique(session.technique).title));
+    line("scene", session.scene + ", " + count_text(report.scene->value.triangles.size()) + " triangles, loaded in " +
+                      seconds_text(report.load_seconds));
+    line("picture", std::to_string(session.size.width) + " x " + std::to_string(session.size.height) + " pixels, " +
+                        count_text(report.lights->value.size()) + " lights");
+    line("device", picture.device);
+    line("structure", bytes_text(statistics.structure_bytes) + ", built in " + seconds_text(statistics.build_seconds));
+    line("shadow rays", count_text(picture.rays) + " in " + seconds_text(picture.seconds) + " (" +
+                            rate_text(rays_per_second(picture)) + "), " + percent_text(blocked_percent(picture)) +
+                            " blocked");
+    if (report.errors) {
+        const ErrorMetrics& errors = report.errors->value;
+        const RenderResult& truth = report.reference->value;
+        line("Embree", "the same rays in " + seconds_text(truth.seconds) + " (" + rate_text(rays_per_second(truth)) +
+                           "), " + percent_text(blocked_percent(truth)) + " blocked");
+        line("visibility error", percent_text(errors.visibility_percent) + " of the rays judged wrongly");
+        line("shadow error", percent_text(errors.shadow_percent) + " mean difference of a pixel's shadow");
+        line("radiance error", "RMSE " + fixed_text(errors.rmse, 4) + ", at most " + fixed_text(errors.max_abs, 4));
+    }
+    line("peak memory", bytes_text(peak_memory_bytes()));
+    return text_from(table);
+}
+
+ImageRgba8 shown_channel(const RenderReport& report) {
+    const RenderResult& picture = report.picture->value;
+    switch (report.session.channel) {
+        case Channel::lit: break;
+        case Channel::reference: return shown(report.reference->value.radiance, report.session.display);
+        case Channel::shadow: return colour_mapped(picture.shadow, 0.0f, 1.0f);
+        case Channel::visibility_error:
+            return colour_mapped(report.errors->value.visibility_error, 0.0f, visibility_error_shown);
+        case Channel::shadow_error: return colour_mapped(report.errors->value.shadow_error, -1.0f, 1.0f);
+        case Channel::rays:
+            return colour_mapped(scalar_from(picture.rays_asked), 0.0f,
+                                 static_cast<float>(report.lights->value.size()));
+    }
+    return shown(picture.radiance, report.session.display);
+}
+
+}  // namespace sightlines

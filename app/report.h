@@ -1,0 +1,39 @@
+// What a render says about itself: report.json, and the short table on the terminal.
+#pragma once
+
+#include <optional>
+
+#include "app/results.h"
+#include "app/session.h"
+
+namespace sightlines {
+
+/// The share of a pixel's rays judged wrongly that the error picture shows brightest.
+constexpr float visibility_error_shown = 0.5f;
+
+/// Everything that a report is made from, of one session.
+struct RenderReport {
+    Session session;
+    Backend backend = Backend::cpu;
+    Shared<Scene> scene;
+    Shared<std::vector<Light>> lights;
+    Shared<BuiltStructure> structure;
+    Shared<RenderResult> picture;
+    Shared<RenderResult> reference;   ///< null without
+    Shared<ErrorMetrics> errors;      ///< null without
+    double load_seconds = 0.0;        ///< file and scene, not the reference's hierarchy
+};
+
+/// Makes the picture, and the reference where the session asks for one.
+RenderReport render_session(const Session& session, Results& results, Progress& progress);
+
+/// The design's report.json: fields that do not apply are left out.
+Json json_from_report(const RenderReport& report);
+
+/// Aligned lines for a newcomer. `title` heads them.
+std::string text_from_report(const RenderReport& report);
+
+/// The channel of the session as it is shown.
+ImageRgba8 shown_channel(const RenderReport& report);
+
+}  // namespace sightlines

@@ -1,0 +1,220 @@
+#include "app/results.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "techniques/base/error.h"
+#include "techniques/compute/device.h"
+#include "techniques/scene/builtin_scenes.h"
+
+namespace sightlines {
+namespace {
+
+/// The reference keeps one bit for each pixel and light, twice (the technique's and Embree's).
+constexpr std::uint64_t verdict_limit_bytes = std::uint64_t{2} << 30u;
+
+/// The technique's parameters that change `affects`, out of those that are set.
+std::map<std::string, ParameterValues> own_parameters(const Session& session, bool structure_only) {
+    ParameterValues kept;
+    for (const Parameter& row : find_technique(session.technique).parameters) {
+        const ParameterValues values = technique_parameters(session);
+        const auto given = values.find(std::string(row.name));
+        if (given == values.end() || (structure_only && row.affects != ParameterAffects::structure)) continue;
+        kept.insert(*given);
+    }
+    if (kept.empty()) return {};
+    return {{session.technique, std::move(kept)}};
+}
+
+void check_verdicts(const Session& session, std::size_t light_count) {
+    const std::uint64_t words = (light_count + 31u) / 32u;
+    const std::uint64_t bytes = 2u * 4u * words * session.size.pixels();
+    if (bytes > verdict_limit_bytes)
+        throw InputError("reference", "",
+                         std::to_string(session.size.pixels()) + " pixels times " + std::to_string(light_count) +
+                             " lights are too many rays to compare",
+                         "a smaller picture or fewer lights; their answers may take " +
+                             std::to_string(verdict_limit_bytes >> 20u) + " MiB");
+}
+
+}  // namespace
+
+template <class Value>
+template <class Make>
+Shared<Value> Stage<Value>::get(const Session& part, Progress& progress, bool forget_first, Make make) {
+    if (auto ready = latest(part)) return ready;
+    std::unique_lock making(making_, std::defer_lock);
+    while (!making.try_lock_for(std::chrono::milliseconds(20))) progress.check();
+    if (auto ready = latest(part)) return ready;
+    progress.check();
+    if (forget_first) keep(std::nullopt, nullptr);
+    const auto start = std::chrono::steady_clock::now();
+    auto made = std::make_shared<Made<Value>>();
+    made->value = make();
+    made->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    keep(part, made);
+    return made;
+}
+
+Camera session_camera(const Session& session, const Scene& scene) {
+    return session.free_camera ? *session.free_camera : find_camera(scene, session.camera);
+}
+
+Backend automatic_backend() {
+    const auto is_gpu = [](const compute::DeviceInfo& device) {
+        return device.lacks.empty() && device.kind != compute::DeviceKind::cpu &&
+               device.kind != compute::DeviceKind::other;
+    };
+    return std::ranges::any_of(compute::list_devices(), is_gpu) ? Backend::vulkan : Backend::cpu;
+}
+
+Session model_part(const Session& session) {
+    Session part;
+    part.scene = session.scene;
+    return part;
+}
+
+Session scene_part(const Session& session) {
+    Session part = model_part(session);
+    part.time_s = session.time_s;
+    return part;
+}
+
+Session surfaces_part(const Session& session) {
+    Session part = scene_part(session);
+    part.free_camera = session.free_camera;
+    if (!session.free_camera) part.camera = session.camera;
+    part.size = session.size;
+    return part;
+}
+
+Session lights_part(const Session& session) {
+    Session part = scene_part(session);
+    part.lights = session.lights;
+    part.seed = session.seed;
+    return part;
+}
+
+Session structure_part(const Session& session) {
+    Session part = scene_part(session);
+    part.technique = session.technique;
+    part.parameters = own_parameters(session, true);
+    part.backend = session.backend;
+    return part;
+}
+
+Session reference_part(const Session& session) {
+    Session part = surfaces_part(session);
+    part.lights = session.lights;
+    part.seed = session.seed;
+    part.reference = needs_reference(session);
+    return part;
+}
+
+Session picture_part(const Session& session) {
+    Session part = reference_part(session);
+    part.environment = session.environment;
+    part.technique = session.technique;
+    part.parameters = own_parameters(session, false);
+    part.backend = session.backend;
+    return part;
+}
+
+Backend Results::backend(const Session& session) const {
+    return resolved(session).backend == BackendChoice::vulkan ? Backend::vulkan : Backend::cpu;
+}
+
+Session Results::resolved(Session session) const {
+    if (session.backend == BackendChoice::automatic)
+        session.backend = automatic_ == Backend::vulkan ? BackendChoice::vulkan : BackendChoice::cpu;
+    return session;
+}
+
+RenderRequest Results::request(const Session& session, const SurfaceBuffer& surfaces,
+                               const std::vector<Light>& lights) const {
+    RenderRequest request;
+    request.surfaces = &surfaces;
+    request.lights = lights;
+    request.parameters = technique_parameters(session);
+    request.backend = backend(session);
+    request.seed = session.seed;
+    request.threads = threads_;
+    request.keep_verdicts = needs_reference(session);
+    return request;
+}
+
+Shared<SceneModel> Results::model(const Session& session, Progress& progress) {
+    return model_.get(model_part(session), progress, true, [&] { return find_scene(session.scene, progress); });
+}
+
+Shared<Scene> Results::scene(const Session& session, Progress& progress) {
+    const auto model = this->model(session, progress);
+    return scene_.get(scene_part(session), progress, false, [&] { return model->value.at(session.time_s); });
+}
+
+Shared<std::shared_ptr<const EmbreeScene>> Results::embree(const Session& session, Progress& progress) {
+    const auto scene = this->scene(session, progress);
+    return embree_.get(scene_part(session), progress, false,
+                       [&] { return build_embree_scene(scene->value, EmbreeUse::reference, threads_, progress); });
+}
+
+Shared<SurfaceBuffer> Results::surfaces(const Session& session, Progress& progress) {
+    const auto scene = this->scene(session, progress);
+    const auto embree = this->embree(session, progress);
+    return surfaces_.get(surfaces_part(session), progress, false, [&] {
+        return visible_surfaces(scene->value, *embree->value, session_camera(session, scene->value), session.size,
+                                threads_, progress);
+    });
+}
+
+Shared<std::vector<Light>> Results::lights(const Session& session, Progress& progress) {
+    const auto scene = this->scene(session, progress);
+    return lights_.get(lights_part(session), progress, false,
+                       [&] { return make_lights(scene->value, session.lights, session.seed); });
+}
+
+Shared<BuiltStructure> Results::structure(const Session& session, Progress& progress) {
+    const auto scene = this->scene(session, progress);
+    return structure_.get(structure_part(resolved(session)), progress, true, [&] {
+        BuiltStructure built{&find_technique(session.technique), scene, {}, {}};
+        const BuildRequest request{&scene->value, technique_parameters(session), backend(session), threads_};
+        built.structure = built.technique->build(request, progress);
+        built.statistics = built.technique->statistics(built.structure);
+        return built;
+    });
+}
+
+Shared<RenderResult> Results::picture(const Session& session, Progress& progress, const OnRegion& on_region) {
+    const auto lights = this->lights(session, progress);
+    if (needs_reference(session)) check_verdicts(session, lights->value.size());
+    const auto surfaces = this->surfaces(session, progress);
+    const auto structure = this->structure(session, progress);
+    return picture_.get(picture_part(resolved(session)), progress, false, [&] {
+        RenderRequest asked = request(session, surfaces->value, lights->value);
+        asked.on_region = on_region;
+        return structure->value.technique->render(structure->value.structure, asked, progress);
+    });
+}
+
+Shared<RenderResult> Results::reference(const Session& session, Progress& progress) {
+    const auto lights = this->lights(session, progress);
+    if (needs_reference(session)) check_verdicts(session, lights->value.size());
+    const auto surfaces = this->surfaces(session, progress);
+    const auto embree = this->embree(session, progress);
+    return reference_.get(reference_part(session), progress, false, [&] {
+        return render_reference(*embree->value, request(session, surfaces->value, lights->value), progress);
+    });
+}
+
+Shared<ErrorMetrics> Results::errors(const Session& session, Progress& progress) {
+    const auto ours = picture(session, progress);
+    const auto truth = reference(session, progress);
+    return errors_.get(picture_part(resolved(session)), progress, false, [&] { return compare(ours->value, truth->value); });
+}
+
+Shared<RenderResult> Results::latest_picture(const Session& session) const {
+    return picture_.latest(picture_part(resolved(session)));
+}
+
+}  // namespace sightlines

@@ -1,0 +1,122 @@
+// The heavy results that a session stands for: loaded, built, rendered once, and kept while the part of the session
+// that they depend on stays the same. Moving a light does not rebuild the structure; the exposure renders nothing.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/session.h"
+#include "techniques/rays/embree_scene.h"
+#include "techniques/rays/reference.h"
+#include "techniques/technique.h"
+
+namespace sightlines {
+
+/// A result and what it took to make it.
+template <class Value> struct Made {
+    Value value;
+    double seconds = 0.0;
+};
+template <class Value> using Shared = std::shared_ptr<const Made<Value>>;
+
+/// A built structure, with the scene that it came from kept alive.
+struct BuiltStructure {
+    const Technique* technique = nullptr;
+    std::shared_ptr<const Made<Scene>> scene;
+    Structure structure;
+    Statistics statistics;
+};
+
+/// The latest result of one stage, and the part of the session that it was made from. Any number of threads may ask;
+/// one makes, and the others wait for it (and give up when their own progress is cancelled).
+template <class Value> class Stage {
+public:
+    /// The result for `part`, or null where the latest one is for another part. Does not wait for work under way.
+    Shared<Value> latest(const Session& part) const {
+        const std::lock_guard lock(latest_mutex_);
+        return part_ && *part_ == part ? value_ : nullptr;
+    }
+
+    /// The result for `part`, by `make()` where the latest one is not it. `forget_first`: lets go of the latest one
+    /// before making the next, so that two large ones never live at the same time.
+    template <class Make> Shared<Value> get(const Session& part, Progress& progress, bool forget_first, Make make);
+
+private:
+    void keep(const std::optional<Session>& part, Shared<Value> value) {
+        const std::lock_guard lock(latest_mutex_);
+        part_ = part;
+        value_.swap(value);  // the old one is destroyed after the lock is released
+    }
+
+    std::timed_mutex making_;
+    mutable std::mutex latest_mutex_;
+    std::optional<Session> part_;
+    Shared<Value> value_;
+};
+
+/// Called after each refinement pass over a region with the picture so far (RenderRequest::on_region).
+using OnRegion = std::function<void(const RenderResult& so_far, PixelRect changed)>;
+
+/// All stages of one workbench or one command. Every member may be called from any thread; each throws InputError,
+/// EnvironmentError or Cancelled and then keeps what it had. Everything returned is immutable.
+class Results {
+public:
+    /// `threads` 0: as many as the machine has; never changes a result. `automatic`: what a session that leaves the
+    /// choice of backend open gets (automatic_backend()).
+    Results(int threads, Backend automatic) : threads_(threads), automatic_(automatic) {}
+
+    Shared<SceneModel> model(const Session& session, Progress& progress);
+    Shared<Scene> scene(const Session& session, Progress& progress);
+    Shared<std::shared_ptr<const EmbreeScene>> embree(const Session& session, Progress& progress);
+    Shared<SurfaceBuffer> surfaces(const Session& session, Progress& progress);
+    Shared<std::vector<Light>> lights(const Session& session, Progress& progress);
+    Shared<BuiltStructure> structure(const Session& session, Progress& progress);
+    /// With verdicts where the session asks for the reference. `on_region` is called only where the picture is made.
+    Shared<RenderResult> picture(const Session& session, Progress& progress, const OnRegion& on_region = {});
+    Shared<RenderResult> reference(const Session& session, Progress& progress);
+    /// The technique's picture against the reference; the session must ask for the reference.
+    Shared<ErrorMetrics> errors(const Session& session, Progress& progress);
+
+    /// What is there already, without waiting: for the screen, which shows what it has while the next is being made.
+    Shared<RenderResult> latest_picture(const Session& session) const;
+
+    int threads() const { return threads_; }
+    /// Where the session's technique runs.
+    Backend backend(const Session& session) const;
+
+private:
+    Session resolved(Session session) const;
+    RenderRequest request(const Session& session, const SurfaceBuffer& surfaces, const std::vector<Light>& lights) const;
+
+    int threads_;
+    Backend automatic_;
+    Stage<SceneModel> model_;
+    Stage<Scene> scene_;
+    Stage<std::shared_ptr<const EmbreeScene>> embree_;
+    Stage<SurfaceBuffer> surfaces_;
+    Stage<std::vector<Light>> lights_;
+    Stage<BuiltStructure> structure_;
+    Stage<RenderResult> picture_, reference_;
+    Stage<ErrorMetrics> errors_;
+};
+
+/// The camera of the session in `scene`: the free one, else the named one, else the first.
+Camera session_camera(const Session& session, const Scene& scene);
+
+/// What `automatic` stands for on this machine: Vulkan where there is a real GPU. Asks the Vulkan driver each time.
+Backend automatic_backend();
+
+/// The session with everything at its default that a stage does not depend on: its key in the cache.
+Session model_part(const Session& session);
+Session scene_part(const Session& session);
+Session surfaces_part(const Session& session);
+Session lights_part(const Session& session);
+Session structure_part(const Session& session);
+Session picture_part(const Session& session);
+Session reference_part(const Session& session);
+
+}  // namespace sightlines

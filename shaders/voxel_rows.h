@@ -1,0 +1,246 @@
+// A shadow ray answered by one row of bits: Wang 2017, Algorithm 3 without the dictionary.
+#ifndef SIGHTLINES_VOXEL_ROWS_H
+#define SIGHTLINES_VOXEL_ROWS_H
+
+#include "lighting.h"
+#include "voxel_rows_data.h"
+#include "voxel_rows_memory.h"
+
+KERNEL_BEGIN
+
+/// Where the answer to one ray (or half of it) lies: a row, and the voxels of it that the ray passes.
+struct RowSpan {
+    UInt row;
+    Int first;   // voxels first .. last, inclusive; first > last: nothing to look at
+    Int last;
+};
+
+/// The angle of (x, y) from the positive x axis for y >= 0, in [0, pi], given `ratio` = min(|x|, y) / max(|x|, y).
+/// Abramowitz and Stegun 4.4.49 (error 1e-5 rad: a thousandth of the narrowest half step), so that every backend rounds
+/// a direction alike.
+FN Real angle_above(Real y, Real x, Real ratio) {
+    const Real squared = ratio * ratio;
+    Real series = fused(squared, splat(0.0208351f), splat(-0.0851330f));
+    series = fused(series, squared, splat(0.1801410f));
+    series = fused(series, squared, splat(-0.3302995f));
+    series = fused(series, squared, splat(0.9998660f)) * ratio;
+    const Real quadrant = select(y > abs(x), splat(1.57079633f) - series, series);
+    return select(x < splat(0.0f), splat(3.14159265f) - quadrant, quadrant);
+}
+
+/// A direction of the array: its steps of theta and of phi.
+struct Direction {
+    Int theta;
+    Int phi;
+};
+
+/// Its place in the table of frames.
+FN Int frame_index(RowShape shape, Direction direction) { return direction.theta * splat(shape.angles) + direction.phi; }
+
+/// The direction of the array nearest to a line. Lines have no sign, so theta and phi stay below
+/// 180 degrees: d(theta, phi) = cos(phi) Y + sin(phi) (cos(theta) X + sin(theta) Z).
+FN Direction discretize_direction(RowShape shape, Vec3 along_line) {
+    const Mask flipped = along_line.z < splat(0.0f);
+    const Real x = select(flipped, -along_line.x, along_line.x);
+    const Real y = select(flipped, -along_line.y, along_line.y);
+    const Real z = abs(along_line.z);
+    const Real horizontal = sqrt(fused(z, z, x * x));
+    // Both ratios by one division: a / b = a d / (b d).
+    const Real theta_longer = max(max(abs(x), z), splat(1.0e-18f));
+    const Real phi_longer = max(max(abs(y), horizontal), splat(1.0e-18f));
+    const Real reciprocal = splat(1.0f) / (theta_longer * phi_longer);
+    const Real theta = angle_above(z, x, min(abs(x), z) * phi_longer * reciprocal);
+    const Real phi = angle_above(horizontal, y, min(abs(y), horizontal) * theta_longer * reciprocal);
+    Int theta_step = to_int(fused(theta, splat(shape.steps_per_radian), splat(0.5f)));
+    Int phi_step = to_int(fused(phi, splat(shape.steps_per_radian), splat(0.5f)));
+    // d(180, phi) = -d(0, 180 - phi), and d(theta, 180) = -d(theta, 0): the same lines.
+    const Mask past_theta = theta_step == splat(shape.angles);
+    phi_step = select(past_theta, splat(shape.angles) - phi_step, phi_step);
+    theta_step = select(past_theta, splat(0), theta_step);
+    phi_step = select(phi_step == splat(shape.angles), splat(0), phi_step);
+    NOTE("Algorithm 3, line 1", "The ray's direction is rounded to the nearest pair of angles of the array.");
+    SHOW(theta);
+    SHOW(phi);
+    SHOW(theta_step);
+    SHOW(phi_step);
+    Direction direction;
+    direction.theta = theta_step;
+    direction.phi = phi_step;
+    return direction;
+}
+
+FN Real along(Vec3 axis, Real offset, Vec3 point) {
+    return fused(axis.z, point.z, fused(axis.y, point.y, fused(axis.x, point.x, offset)));
+}
+
+/// The index of a coordinate's voxel, kept inside the grid.
+FN Int voxel_index(RowShape shape, Real coordinate) {
+    return to_int(min(max(coordinate, splat(0.0f)), splat(float(shape.resolution) - 0.5f)));
+}
+
+#ifndef LAYOUT
+#define LAYOUT 3
+#endif
+/// Where a row lies in memory, counted in rows. Rays that are asked together want neighbouring directions and rows, so
+/// these lie together: blocks of 2 x 2 directions by 8 x 8 rows (4 KiB at 128 bits), and in them lines of 2 x 2 rows.
+FN UInt row_index(RowShape shape, Direction direction, Int v, Int w) {
+    const int blocks = (shape.resolution + 7) / 8;
+    const Int directions = (direction.theta >> 1) * splat(shape.angles / 2) + (direction.phi >> 1);
+    const Int block = (directions * splat(blocks) + (v >> 3)) * splat(blocks) + (w >> 3);
+    const Int one = splat(1);
+    const Int t = direction.theta & one;
+    const Int p = direction.phi & one;
+#if LAYOUT == 0
+    return to_uint(((direction.theta*splat(shape.angles)+direction.phi) * splat(blocks*8) + v) * splat(blocks*8) + w);
+#elif LAYOUT == 1 // line: 4w
+    const Int inside = (t << 7) | (p << 6) | ((v & splat(7)) << 3) | (w & splat(7));
+#elif LAYOUT == 2 // line 2v x 2w
+    const Int inside = (t << 7) | (p << 6) | (((v >> 1) & splat(3)) << 4) | (((w >> 1) & splat(3)) << 2) | ((v & one) << 1) | (w & one);
+#elif LAYOUT == 3 // line 2t x 2v
+    const Int inside = (p << 7) | (((v >> 1) & splat(3)) << 5) | ((w & splat(7)) << 2) | (t << 1) | (v & one);
+#elif LAYOUT == 4 // line 2p x 2w
+    const Int inside = (t << 7) | ((v & splat(7)) << 4) | (((w >> 1)& splat(3)) << 2) | (p << 1) | (w & one);
+#elif LAYOUT == 5 // line 2t x 2p
+    const Int inside = ((v & splat(7)) << 5) | ((w & splat(7)) << 2) | (p << 1) | t;
+#endif
+#if LAYOUT != 0
+    return to_uint((block << 8) | inside);
+#endif
+}
+
+/// The row that holds the midpoint of the segment a b, and the voxels between its ends. `start_offset` and
+/// `light_offset` (voxels) are taken off at a and at b.
+FN RowSpan locate_span(RowShape shape, Frame frame, Direction direction, Vec3 a, Vec3 b, float start_offset,
+                       float light_offset) {
+    RowSpan span;
+    const Vec3 midpoint = (a + b) * splat(0.5f);
+    const Int v = voxel_index(shape, along(frame.v, frame.v_offset, midpoint));
+    const Int w = voxel_index(shape, along(frame.w, frame.w_offset, midpoint));
+    span.row = row_index(shape, direction, v, w);
+    NOTE("Algorithm 3, line 3", "The row that holds the ray's midpoint stands for the whole ray.");
+    SHOW_POINT(midpoint);
+    SHOW(v);
+    SHOW(w);
+    const Real at_a = along(frame.u, frame.u_offset, a);
+    const Real at_b = along(frame.u, frame.u_offset, b);
+    const Mask forward = at_b > at_a;
+    const Real low = select(forward, at_a + splat(start_offset), at_b + splat(light_offset));
+    const Real high = select(forward, at_b - splat(light_offset), at_a - splat(start_offset));
+    // Clamped one voxel outside the row, where the conversion to integers is safe and no bit is left.
+    const float row_end = float(shape.resolution);
+    span.first = to_int(min(max(low, splat(0.0f)), splat(row_end)));
+    span.last = to_int(min(max(high, splat(-1.0f)) + splat(1.0f), splat(row_end))) - splat(1);
+    NOTE("Algorithm 3, line 4", "The ray's ends, less the offsets, give the extent [s, e] of voxels along the row.");
+    SHOW(at_a);
+    SHOW(at_b);
+    SHOW(span.first);
+    SHOW(span.last);
+    return span;
+}
+
+/// The bits of one word of a row that lie in first .. last.
+FN UInt kept_bits(UInt word, int word_index, Int first, Int last) {
+    const int lowest = 32 * word_index;
+    const UInt below = to_uint(max(first - splat(lowest), splat(0)));
+    const UInt above = to_uint(max(splat(lowest + 31) - last, splat(0)));
+    return word & shift_left(splat(0xffffffffu), below) & shift_right(splat(0xffffffffu), above);
+}
+
+/// Whether any voxel of the span is set.
+FN Mask span_is_blocked(RowShape shape, Rows rows, RowSpan span) {
+    UInt clipped = splat(0u);
+    NOTE("Algorithm 3, lines 5 to 7", "The row's bits outside the extent are cleared; any bit left blocks the ray.");
+    SHOW(span.row);
+    if (shape.words_per_row < 4) {
+        for (int word = 0; word < shape.words_per_row; ++word) {
+            const UInt bits = load_word(rows, shape, span.row, word);
+            clipped = clipped | kept_bits(bits, word, span.first, span.last);
+            SHOW_BITS("row", bits);
+            SHOW_BITS("clipped", kept_bits(bits, word, span.first, span.last));
+        }
+    }
+    for (int word = 0; word + 4 <= shape.words_per_row; word += 4) {
+        const FourWords bits = load_four_words(rows, shape, span.row, word);
+        const UInt x = kept_bits(bits.x, word, span.first, span.last);
+        const UInt y = kept_bits(bits.y, word + 1, span.first, span.last);
+        const UInt z = kept_bits(bits.z, word + 2, span.first, span.last);
+        const UInt w = kept_bits(bits.w, word + 3, span.first, span.last);
+        clipped = clipped | x | y | z | w;
+        SHOW_BITS("row", bits.x);
+        SHOW_BITS("row", bits.y);
+        SHOW_BITS("row", bits.z);
+        SHOW_BITS("row", bits.w);
+        SHOW_BITS("clipped", x);
+        SHOW_BITS("clipped", y);
+        SHOW_BITS("clipped", z);
+        SHOW_BITS("clipped", w);
+    }
+    const Mask blocked = clipped != splat(0u);
+    SHOW(blocked);
+    return blocked;
+}
+
+/// Narrows [enter, leave] (fractions of the ray) to the part between two planes.
+FN void clip_to_slab(float low, float high, Real start, Real extent, INOUT(Real) enter, INOUT(Real) leave) {
+    const Real safe_extent = select(abs(extent) < splat(1.0e-20f), splat(1.0e-20f), extent);
+    const Real at_low = (splat(low) - start) / safe_extent;
+    const Real at_high = (splat(high) - start) / safe_extent;
+    enter = max(enter, min(at_low, at_high));
+    leave = min(leave, max(at_low, at_high));
+}
+
+/// The part of the segment a b inside the bounds, so that its midpoint lies in the voxelization.
+FN void clip_to_bounds(RowShape shape, INOUT(Vec3) a, INOUT(Vec3) b) {
+    const Vec3 along_ray = b - a;
+    Real enter = splat(0.0f);
+    Real leave = splat(1.0f);
+    clip_to_slab(shape.lowest.x, shape.highest.x, a.x, along_ray.x, enter, leave);
+    clip_to_slab(shape.lowest.y, shape.highest.y, a.y, along_ray.y, enter, leave);
+    clip_to_slab(shape.lowest.z, shape.highest.z, a.z, along_ray.z, enter, leave);
+    enter = min(enter, splat(1.0f));
+    leave = max(leave, enter);
+    b = a + along_ray * leave;
+    a = a + along_ray * enter;
+}
+
+/// Where the ray starts: off the surface, out of the voxels that the surface itself fills.
+FN Vec3 ray_origin(RowShape shape, Vec3 position, Vec3 normal) {
+    return position + normal * splat(shape.normal_offset_m);
+}
+
+/// Where the answer to the ray from a to b lies: one span, or two where each half of the ray has a row of its own.
+FN void locate_spans(RowShape shape, FrameTable frames, Direction direction, Vec3 a, Vec3 b, OUT(RowSpan) near,
+                     OUT(RowSpan) far) {
+    const Frame frame = load_frame(frames, frame_index(shape, direction));
+    NOTE("Algorithm 3, line 2", "The voxelization whose rows run in that direction is chosen.");
+    SHOW(direction.theta);
+    SHOW(direction.phi);
+    if (shape.subrays == 1) {
+        near = locate_span(shape, frame, direction, a, b, shape.start_offset, shape.light_offset);
+        far = near;
+    } else {
+        const Vec3 middle = (a + b) * splat(0.5f);
+        near = locate_span(shape, frame, direction, a, middle, shape.start_offset, 0.0f);
+        far = locate_span(shape, frame, direction, middle, b, 0.0f, shape.light_offset);
+    }
+}
+
+/// Algorithm 3: whether the scene is in the way between `origin` (of ray_origin) and `target`.
+FN Mask is_blocked(RowShape shape, FrameTable frames, Rows rows, Vec3 origin, Vec3 target) {
+    Vec3 a = origin;
+    Vec3 b = target;
+    if (shape.clip_to_bounds != 0) clip_to_bounds(shape, a, b);
+    NOTE("Algorithm 4, line 6", "The ray runs from the surface, a little off it, to the light.");
+    SHOW_SEGMENT("ray", a, b);
+    RowSpan near;
+    RowSpan far;
+    locate_spans(shape, frames, discretize_direction(shape, b - a), a, b, near, far);
+    const Mask near_blocked = span_is_blocked(shape, rows, near);
+    if (shape.subrays == 1) return near_blocked;
+    const Mask far_blocked = span_is_blocked(shape, rows, far);
+    return near_blocked || far_blocked;
+}
+
+KERNEL_END
+
+#endif

@@ -1,0 +1,184 @@
+// The kernels' vocabulary for up to 16 rays at once, by Highway. Include before a kernel header to compile it wide.
+// Every operation rounds as its scalar counterpart in portability.h does, so that both give the same answers.
+#ifndef SIGHTLINES_WIDE_H
+#define SIGHTLINES_WIDE_H
+
+#define KERNEL_NAMESPACE wide_kernel
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+
+// The build fixes the instruction set, so that this compilation and the scalar one fuse and round alike.
+#define HWY_COMPILE_ONLY_STATIC
+#include <hwy/highway.h>
+
+#define FN HWY_INLINE
+#include "shaders/portability.h"
+
+namespace sightlines::wide_kernel {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using RealTag = hn::CappedTag<float, 16>;
+using IntTag = hn::RebindToSigned<RealTag>;
+using UIntTag = hn::RebindToUnsigned<RealTag>;
+inline constexpr std::size_t lanes = hn::MaxLanes(RealTag());
+
+/// One number for each ray. `v` is the machine's vector.
+struct Real {
+    hn::Vec<RealTag> v;
+};
+struct Int {
+    hn::Vec<IntTag> v;
+};
+struct UInt {
+    hn::Vec<UIntTag> v;
+};
+/// One truth for each ray, as the comparison of floats gives it.
+struct Mask {
+    hn::Mask<RealTag> m;
+};
+struct Vec3 {
+    Real x, y, z;
+};
+struct FourWords {
+    UInt x, y, z, w;
+};
+
+HWY_INLINE Real splat(float x) { return {hn::Set(RealTag(), x)}; }
+HWY_INLINE Int splat(int x) { return {hn::Set(IntTag(), x)}; }
+HWY_INLINE UInt splat(uint x) { return {hn::Set(UIntTag(), x)}; }
+HWY_INLINE Vec3 splat(vec3 x) { return {splat(x.x), splat(x.y), splat(x.z)}; }
+
+HWY_INLINE Real operator+(Real a, Real b) { return {hn::Add(a.v, b.v)}; }
+HWY_INLINE Real operator-(Real a, Real b) { return {hn::Sub(a.v, b.v)}; }
+HWY_INLINE Real operator*(Real a, Real b) { return {hn::Mul(a.v, b.v)}; }
+HWY_INLINE Real operator/(Real a, Real b) { return {hn::Div(a.v, b.v)}; }
+HWY_INLINE Real operator-(Real a) { return {hn::Neg(a.v)}; }
+HWY_INLINE Real fused(Real a, Real b, Real c) { return {hn::MulAdd(a.v, b.v, c.v)}; }
+HWY_INLINE Real floor(Real x) { return {hn::Floor(x.v)}; }
+HWY_INLINE Real sqrt(Real x) { return {hn::Sqrt(x.v)}; }
+HWY_INLINE Real abs(Real x) { return {hn::Abs(x.v)}; }
+
+HWY_INLINE Int operator+(Int a, Int b) { return {hn::Add(a.v, b.v)}; }
+HWY_INLINE Int operator-(Int a, Int b) { return {hn::Sub(a.v, b.v)}; }
+HWY_INLINE Int operator*(Int a, Int b) { return {hn::Mul(a.v, b.v)}; }
+HWY_INLINE Int operator&(Int a, Int b) { return {hn::And(a.v, b.v)}; }
+HWY_INLINE Int operator|(Int a, Int b) { return {hn::Or(a.v, b.v)}; }
+HWY_INLINE Int operator<<(Int a, int bits) { return {hn::ShiftLeftSame(a.v, bits)}; }
+HWY_INLINE Int operator>>(Int a, int bits) { return {hn::ShiftRightSame(a.v, bits)}; }
+HWY_INLINE UInt operator|(UInt a, UInt b) { return {hn::Or(a.v, b.v)}; }
+HWY_INLINE UInt operator&(UInt a, UInt b) { return {hn::And(a.v, b.v)}; }
+
+HWY_INLINE Mask operator<(Real a, Real b) { return {hn::Lt(a.v, b.v)}; }
+HWY_INLINE Mask operator>(Real a, Real b) { return {hn::Gt(a.v, b.v)}; }
+HWY_INLINE Mask operator==(Int a, Int b) { return {hn::RebindMask(RealTag(), hn::Eq(a.v, b.v))}; }
+HWY_INLINE Mask operator!=(UInt a, UInt b) { return {hn::RebindMask(RealTag(), hn::Ne(a.v, b.v))}; }
+HWY_INLINE Mask operator||(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
+HWY_INLINE Mask operator!(Mask a) { return {hn::Not(a.m)}; }
+HWY_INLINE Mask operator&&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
+
+HWY_INLINE Real min(Real a, Real b) { return {hn::IfThenElse(hn::Lt(a.v, b.v), a.v, b.v)}; }
+HWY_INLINE Real max(Real a, Real b) { return {hn::IfThenElse(hn::Gt(a.v, b.v), a.v, b.v)}; }
+// Of uniform values.
+HWY_INLINE float min(float a, float b) { return a < b ? a : b; }
+HWY_INLINE float max(float a, float b) { return a > b ? a : b; }
+HWY_INLINE Int min(Int a, Int b) { return {hn::Min(a.v, b.v)}; }
+HWY_INLINE Int max(Int a, Int b) { return {hn::Max(a.v, b.v)}; }
+HWY_INLINE Real select(Mask mask, Real a, Real b) { return {hn::IfThenElse(mask.m, a.v, b.v)}; }
+HWY_INLINE Int select(Mask mask, Int a, Int b) { return {hn::IfThenElse(hn::RebindMask(IntTag(), mask.m), a.v, b.v)}; }
+
+HWY_INLINE Int to_int(Real x) { return {hn::ConvertTo(IntTag(), x.v)}; }
+HWY_INLINE Real to_real(Int x) { return {hn::ConvertTo(RealTag(), x.v)}; }
+HWY_INLINE UInt to_uint(Int x) { return {hn::BitCast(UIntTag(), x.v)}; }
+
+#if HWY_TARGET <= HWY_AVX2
+// The shifts of AVX2 and later already give zero from 32 on.
+HWY_INLINE UInt shift_left(UInt x, UInt n) { return {hn::Shl(x.v, n.v)}; }
+HWY_INLINE UInt shift_right(UInt x, UInt n) { return {hn::Shr(x.v, n.v)}; }
+#else
+HWY_INLINE UInt shift_left(UInt x, UInt n) {
+    const auto inside = hn::Lt(hn::BitCast(IntTag(), n.v), hn::Set(IntTag(), 32));
+    const auto shifted = hn::Shl(x.v, hn::And(n.v, hn::Set(UIntTag(), 31u)));
+    return {hn::IfThenElseZero(hn::RebindMask(UIntTag(), inside), shifted)};
+}
+HWY_INLINE UInt shift_right(UInt x, UInt n) {
+    const auto inside = hn::Lt(hn::BitCast(IntTag(), n.v), hn::Set(IntTag(), 32));
+    const auto shifted = hn::Shr(x.v, hn::And(n.v, hn::Set(UIntTag(), 31u)));
+    return {hn::IfThenElseZero(hn::RebindMask(UIntTag(), inside), shifted)};
+}
+#endif
+
+HWY_INLINE Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+HWY_INLINE Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+HWY_INLINE Vec3 operator*(Vec3 a, Real b) { return {a.x * b, a.y * b, a.z * b}; }
+
+HWY_INLINE Real load(const float* from) { return {hn::LoadU(RealTag(), from)}; }
+HWY_INLINE void store(Real x, float* to) { hn::StoreU(x.v, RealTag(), to); }
+HWY_INLINE void store(Int x, int* to) { hn::StoreU(x.v, IntTag(), to); }
+HWY_INLINE void store(UInt x, uint* to) { hn::StoreU(x.v, UIntTag(), to); }
+
+/// Bit i: lane i.
+HWY_INLINE std::uint32_t bits_of(Mask mask) {
+    alignas(8) std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(RealTag(), mask.m, bytes);
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, bytes, sizeof bits);
+    return bits;
+}
+HWY_INLINE bool any(Mask mask) { return !hn::AllFalse(RealTag(), mask.m); }
+
+/// Record `index` (of N floats) of a table for each ray. Neighbouring rays mostly want the same record, so each
+/// distinct one is broadcast under a mask: several times faster here than N gathers.
+template <int N> HWY_INLINE std::array<Real, N> load_records(const float* table, Int index) {
+    alignas(64) int each[lanes];
+    hn::Store(index.v, IntTag(), each);
+    std::array<Real, N> record;
+    const float* first = table + static_cast<std::ptrdiff_t>(each[0]) * N;
+    for (int k = 0; k < N; ++k) record[static_cast<std::size_t>(k)] = splat(first[k]);
+    auto missing = bits_of({hn::RebindMask(RealTag(), hn::Ne(index.v, hn::Set(IntTag(), each[0])))});
+    while (missing != 0) {
+        const int wanted = each[static_cast<std::size_t>(__builtin_ctz(missing))];
+        const Mask same = index == splat(wanted);
+        const float* from = table + static_cast<std::ptrdiff_t>(wanted) * N;
+        for (std::size_t k = 0; k < N; ++k) record[k] = select(same, splat(from[k]), record[k]);
+        missing &= ~bits_of(same);
+    }
+    return record;
+}
+
+/// words[index * stride] for each ray.
+HWY_INLINE UInt gather_words(const uint* words, UInt index, int stride) {
+    alignas(64) uint each[lanes], gathered[lanes];
+    hn::Store(index.v, UIntTag(), each);
+    for (std::size_t i = 0; i < lanes; ++i) gathered[i] = words[static_cast<std::size_t>(each[i]) * stride];
+    return {hn::Load(UIntTag(), gathered)};
+}
+
+/// words[index * stride + 0 .. 3] for each ray: one 128-bit load a ray, transposed by fours.
+HWY_INLINE FourWords gather_four_words(const uint* words, UInt index, int stride) {
+    alignas(64) uint each[lanes];
+    hn::Store(index.v, UIntTag(), each);
+    const auto from = [&](std::size_t lane) {
+        return reinterpret_cast<const __m128i*>(words + static_cast<std::size_t>(each[lane]) * stride);
+    };
+    const auto rows_of = [&](std::size_t lane) {
+        __m512i rows = _mm512_castsi128_si512(_mm_loadu_si128(from(lane)));
+        rows = _mm512_inserti32x4(rows, _mm_loadu_si128(from(lane + 4)), 1);
+        rows = _mm512_inserti32x4(rows, _mm_loadu_si128(from(lane + 8)), 2);
+        return _mm512_inserti32x4(rows, _mm_loadu_si128(from(lane + 12)), 3);
+    };
+    const __m512i a = rows_of(0), b = rows_of(1), c = rows_of(2), d = rows_of(3);
+    const __m512i ab_low = _mm512_unpacklo_epi32(a, b), ab_high = _mm512_unpackhi_epi32(a, b);
+    const __m512i cd_low = _mm512_unpacklo_epi32(c, d), cd_high = _mm512_unpackhi_epi32(c, d);
+    using Words = hn::Vec<UIntTag>;
+    return {{Words{_mm512_unpacklo_epi64(ab_low, cd_low)}},
+            {Words{_mm512_unpackhi_epi64(ab_low, cd_low)}},
+            {Words{_mm512_unpacklo_epi64(ab_high, cd_high)}},
+            {Words{_mm512_unpackhi_epi64(ab_high, cd_high)}}};
+}
+
+}  // namespace sightlines::wide_kernel
+
+#endif

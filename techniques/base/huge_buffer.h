@@ -1,0 +1,27 @@
+// Gigabytes of words: zeroed, on huge pages where the system gives them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace sightlines {
+
+/// Words and whoever keeps them alive (memory of our own, or a Vulkan device's that is mapped). Copies share the words.
+struct HugeBuffer {
+    std::span<std::uint32_t> words;
+    std::shared_ptr<void> owner;
+
+    std::size_t bytes() const { return words.size_bytes(); }
+};
+
+/// `count` zero words, aligned to 2 MiB. EnvironmentError, with the size, where there is not that much memory.
+HugeBuffer allocate_huge(std::size_t count);
+
+/// Bytes of memory that the machine can still give without swapping.
+std::uint64_t available_memory_bytes();
+
+/// The most memory that this process has held at once.
+std::uint64_t peak_memory_bytes();
+
+}  // namespace sightlines

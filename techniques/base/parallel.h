@@ -1,0 +1,16 @@
+// Threads, by oneTBB. Results must not depend on how many there are: give each index its own output.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+namespace sightlines {
+
+/// Calls body(i) for i in [0, count), on at most `threads` threads (0: as many as the machine has), largest grain 1.
+/// An exception (Cancelled too) from a body stops the rest and is rethrown here.
+void parallel_for(std::int64_t count, int threads, const std::function<void(std::int64_t)>& body);
+
+/// `threads` as given, or the machine's number where it is 0.
+int thread_count(int threads);
+
+}  // namespace sightlines

@@ -1,0 +1,31 @@
+// The built-in scenes, one file each (builtin_cornell.cpp, builtin_atrium.cpp, builtin_trees.cpp).
+#pragma once
+
+#include "techniques/scene/scene.h"
+
+namespace sightlines {
+
+/// The Cornell box, from the published measurements, at a hundredth of their numbers in metres: about 5.5 m wide.
+SceneModel cornell_model();
+
+/// A court between two storeys of arcades, with cloths and plants: about 260,000 triangles, and a sun that moves.
+SceneModel atrium_model();
+
+/// Broad-leaved trees on rolling ground, after the scene *Trees* of Wang 2017: about 626,000 triangles, a moving sun.
+SceneModel trees_model();
+
+/// Lights that stand for a clear sky: `count` directional lights spread evenly over the upper hemisphere, which give
+/// `irradiance` (W/m^2) together to ground that lies open.
+std::vector<Light> sky_lights(int count, vec3 irradiance);
+
+/// A sun that goes once round the sky's arc between two azimuths and back in `duration_s`, its rays' irradiance
+/// `irradiance` (W/m^2) across them. Azimuth 0 is +x, 90 is +z.
+struct SunArc {
+    float first_azimuth_deg = 0.0f, last_azimuth_deg = 90.0f;
+    float lowest_elevation_deg = 30.0f, highest_elevation_deg = 60.0f;
+    double duration_s = 24.0;
+    vec3 irradiance{3.0f};
+};
+Light sun_light(const SunArc& arc, double time_s);
+
+}  // namespace sightlines

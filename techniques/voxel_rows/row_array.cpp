@@ -1,0 +1,105 @@
+#include "techniques/voxel_rows/row_array.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+namespace sightlines::voxel_rows {
+namespace {
+
+/// Maps the bounds' extent along the unit axis onto [0, N].
+vec4 fitted_axis(vec3 axis, const Box3& bounds, int resolution) {
+    const vec3 size = glm::max(bounds.size(), vec3(1.0e-3f));
+    // A hair of slack keeps points on the bounds inside the grid after rounding.
+    const float extent = glm::dot(glm::abs(axis), size) * 1.00001f;
+    const float scale = static_cast<float>(resolution) / extent;
+    return {axis * scale, 0.5f * static_cast<float>(resolution) - glm::dot(axis, bounds.centre()) * scale};
+}
+
+DirectionFrame make_frame(double theta, double phi, const Box3& bounds, int resolution) {
+    const vec3 horizontal(std::cos(theta), 0.0, std::sin(theta));
+    const vec3 up(0.0f, 1.0f, 0.0f);
+    const auto cosine = static_cast<float>(std::cos(phi)), sine = static_cast<float>(std::sin(phi));
+    const vec4 u = fitted_axis(cosine * up + sine * horizontal, bounds, resolution);
+    const vec4 v = fitted_axis(vec3(-horizontal.z, 0.0f, horizontal.x), bounds, resolution);
+    const vec4 w = fitted_axis(cosine * horizontal - sine * up, bounds, resolution);
+    return {vec3(u), u.w, vec3(v), v.w, vec3(w), w.w};
+}
+
+int next_power_of_two(int value) {
+    int power = 1;
+    while (power < value) power *= 2;
+    return power;
+}
+
+}  // namespace
+
+RowGrid make_grid(const Box3& bounds, int resolution, double angle_step_deg) {
+    RowGrid grid;
+    grid.resolution = resolution;
+    grid.angles = 2 * static_cast<int>(std::ceil(90.0 / angle_step_deg - 1e-9));
+    grid.words_per_row = next_power_of_two((resolution + 31) / 32);
+    grid.bounds = bounds.empty() ? Box3{vec3(-0.5f), vec3(0.5f)} : bounds;
+    const int half = grid.angles / 2;
+    const double step = std::numbers::pi / grid.angles;
+    grid.frames.resize(static_cast<std::size_t>(grid.angles) * grid.angles);
+    for (int theta = 0; theta < grid.angles; ++theta) {
+        for (int phi = 0; phi < half; ++phi) {
+            const DirectionFrame frame = make_frame(theta * step, phi * step, grid.bounds, resolution);
+            const std::size_t direction = static_cast<std::size_t>(theta) * grid.angles + phi;
+            grid.frames[direction] = frame;
+            // 90 degrees on, the rows are the columns of this voxelization: u and w change places (Algorithm 1, line 4).
+            grid.frames[direction + half] = {frame.w, frame.w_offset, frame.v, frame.v_offset, frame.u, frame.u_offset};
+        }
+    }
+    return grid;
+}
+
+RowShape make_shape(const RowGrid& grid) {
+    RowShape shape{};
+    shape.resolution = grid.resolution;
+    shape.angles = grid.angles;
+    shape.words_per_row = grid.words_per_row;
+    shape.subrays = 1;
+    shape.steps_per_radian = static_cast<float>(grid.angles / std::numbers::pi);
+    shape.lowest = grid.bounds.lowest;
+    shape.highest = grid.bounds.highest;
+    shape.reach_m = 2.0f * grid.bounds.diagonal();
+    return shape;
+}
+
+RowArray allocate_array(const Scene& scene, const BuildOptions& options) {
+    RowArray array;
+    array.grid = make_grid(scene.bounds, options.resolution, options.angle_step_deg);
+    const std::size_t words = array.grid.rows() * static_cast<std::size_t>(array.grid.words_per_row);
+    array.words = options.allocate ? options.allocate(words) : allocate_huge(words);
+    return array;
+}
+
+std::span<const std::uint32_t> row_words(const RowArray& array, std::uint32_t row) {
+    const auto length = static_cast<std::size_t>(array.grid.words_per_row);
+    return array.words.words.subspan(row * length, length);
+}
+
+std::vector<std::uint8_t> unpack_voxelization(const RowArray& array, int direction) {
+    const int n = array.grid.resolution;
+    const RowShape shape = make_shape(array.grid);
+    std::vector<std::uint8_t> occupied(static_cast<std::size_t>(n) * n * n);
+    for (int w = 0; w < n; ++w) {
+        for (int v = 0; v < n; ++v) {
+            const auto words = row_words(array, scalar_kernel::row_index(shape, {direction / shape.angles, direction % shape.angles}, v, w));
+            std::uint8_t* row = &occupied[(static_cast<std::size_t>(w) * n + v) * n];
+            for (int u = 0; u < n; ++u) row[u] = (words[static_cast<std::size_t>(u / 32)] >> (u % 32)) & 1u;
+        }
+    }
+    return occupied;
+}
+
+mat4 world_from_voxels(const DirectionFrame& frame) {
+    const mat4 voxels_from_world = glm::transpose(mat4(vec4(frame.u, frame.u_offset), vec4(frame.v, frame.v_offset),
+                                                       vec4(frame.w, frame.w_offset), vec4(0.0f, 0.0f, 0.0f, 1.0f)));
+    return glm::inverse(voxels_from_world);
+}
+
+}  // namespace sightlines::voxel_rows

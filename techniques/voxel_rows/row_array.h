@@ -1,0 +1,75 @@
+// The 2D array of rotated voxelizations (Wang 2017, section 3), uncompressed: one row of bits for each line through the
+// scene in each of a dense set of directions.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "shaders/voxel_rows.h"
+#include "techniques/base/huge_buffer.h"
+#include "techniques/scene/surface_fragments.h"
+#include "techniques/technique.h"
+
+namespace sightlines::voxel_rows {
+
+/// How the array is laid out. `angles` = 2 ceil(90 / step), so that the transposed partner (phi + 90 degrees) is in the
+/// set: a deviation from the paper where the step does not divide 90 (the step used is 180 / angles, never coarser).
+struct RowGrid {
+    int resolution = 128;          ///< voxels along each axis of each voxelization, 32 to 256
+    int angles = 90;               ///< of theta and of phi, in [0, 180) degrees
+    int words_per_row = 4;         ///< 32-bit words: 1, 2, 4 or 8, the next power of two that holds the resolution
+    Box3 bounds;                   ///< of the scene, m
+    std::vector<DirectionFrame> frames;  ///< [angles * angles], direction = theta * angles + phi
+
+    /// Rows in memory: each direction's N x N, padded to whole blocks of row_index().
+    std::size_t rows() const {
+        const auto side = static_cast<std::size_t>((resolution + 7) / 8 * 8);
+        return static_cast<std::size_t>(angles) * angles * side * side;
+    }
+};
+
+struct RowArray {
+    RowGrid grid;
+    HugeBuffer words;              ///< [rows() * words_per_row] in the order of row_index()
+    double build_seconds = 0.0;
+    std::size_t fragments = 0;     ///< surface samples that were splatted (0: built directly)
+};
+
+/// What a build depends on.
+struct BuildOptions {
+    int resolution = 128;
+    double angle_step_deg = 2.0;
+    double samples_per_voxel = 2.0;  ///< of the fragment grid, along each axis; Algorithm 6 only
+    int threads = 0;
+    /// Where the rows are to lie; empty: memory of our own.
+    std::function<HugeBuffer(std::size_t words)> allocate;
+};
+
+/// Frames for every direction, each box fitted to the scene's bounds.
+RowGrid make_grid(const Box3& bounds, int resolution, double angle_step_deg);
+
+/// What the kernel must know of the grid; the query's offsets are left at zero.
+RowShape make_shape(const RowGrid& grid);
+
+/// A clear array for the scene. EnvironmentError where the memory is not there.
+RowArray allocate_array(const Scene& scene, const BuildOptions& options);
+
+/// Algorithm 1: each direction voxelised from the triangles, along three axes. Slow, trusted.
+RowArray build_directly(const Scene& scene, const BuildOptions& options, Progress& progress);
+
+/// The cells in which the fast build samples the surface: cubes, `samples_per_voxel` to a voxel of the longest side.
+FragmentGrid fragment_grid(const RowGrid& grid, double samples_per_voxel);
+
+/// Algorithm 6: the surface becomes fragments once; each is splatted into all rotated voxelizations.
+RowArray build_from_fragments(const Scene& scene, const BuildOptions& options, Progress& progress);
+
+/// The voxelization of one direction, unpacked for showing: occupied[(w * N + v) * N + u] != 0.
+std::vector<std::uint8_t> unpack_voxelization(const RowArray& array, int direction);
+
+/// The 32-bit words of one row: `row` is row_index(direction, v, w).
+std::span<const std::uint32_t> row_words(const RowArray& array, std::uint32_t row);
+
+/// World from the voxel coordinates (u, v, w) in [0, N]^3 of a direction's voxelization.
+mat4 world_from_voxels(const DirectionFrame& frame);
+
+}  // namespace sightlines::voxel_rows

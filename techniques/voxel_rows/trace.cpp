@@ -1,0 +1,118 @@
+// One ray through the recording compilation of the kernel.
+#include <algorithm>
+#include <cmath>
+
+#include "shaders/recording.h"  // first: makes the kernels below record
+
+#include "shaders/voxel_rows.h"
+#include "techniques/rays/light_records.h"
+#include "techniques/voxel_rows/query.h"
+#include "techniques/voxel_rows/voxel_rows.h"
+
+namespace sightlines::voxel_rows {
+namespace {
+
+namespace kernel = recording_kernel;
+
+/// The ray of a request, from the surface to the light, before the kernel moves its ends.
+Segment asked_segment(const RowShape& query, const TraceRequest& request) {
+    const vec3 to_light = kernel::to_light(light_record(request.light), request.position, query.reach_m);
+    return {request.position, request.position + to_light};
+}
+
+vec3 row_corner(const mat4& world_from_voxels, float u, float v, float w) {
+    return vec3(world_from_voxels * vec4(u, v, w, 1.0f));
+}
+
+/// Voxels first .. last (inclusive) of the row (v, w) as an oblong box in world space.
+TraceGeometry row_box(const char* name, const DirectionFrame& frame, int v, int w, int first, int last) {
+    const mat4 world = world_from_voxels(frame);
+    const auto u0 = static_cast<float>(first), v0 = static_cast<float>(v), w0 = static_cast<float>(w);
+    const auto length = static_cast<float>(std::max(0, last - first + 1));
+    return {name, TraceShape::box,
+            {row_corner(world, u0, v0, w0), vec3(world[0]) * length, vec3(world[1]), vec3(world[2])}};
+}
+
+TraceStep* find_step(std::vector<TraceStep>& steps, std::string_view paper) {
+    const auto step = std::ranges::find(steps, paper, &TraceStep::paper);
+    return step == steps.end() ? nullptr : &*step;
+}
+
+/// What the figures of the steps mean in space: the kernel knows indices, the frame says where they lie.
+void add_geometry(std::vector<TraceStep>& steps, const RowArray& array, const ServedRay& served) {
+    const DirectionFrame& frame = array.grid.frames[static_cast<std::size_t>(served.direction)];
+    const vec3 midpoint = 0.5f * (served.ray.origin + served.ray.target);
+    const vec3 half = 0.5f * glm::length(served.ray.target - served.ray.origin) * served.row_direction;
+    if (TraceStep* step = find_step(steps, "Algorithm 3, line 2")) {
+        step->values.push_back({"row_direction", served.row_direction, ""});
+        step->values.push_back({"angular_error", static_cast<double>(served.angular_error_deg), "deg"});
+        step->geometry.push_back({"twin", TraceShape::segment, {midpoint - half, midpoint + half}});
+        const auto n = static_cast<float>(array.grid.resolution);
+        const mat4 world = world_from_voxels(frame);
+        step->geometry.push_back({"voxelization", TraceShape::box,
+                                  {row_corner(world, 0.0f, 0.0f, 0.0f), vec3(world[0]) * n, vec3(world[1]) * n,
+                                   vec3(world[2]) * n}});
+    }
+    for (TraceStep& step : steps) {
+        const auto whole = [](const TraceStep& from, std::string_view name) {
+            const auto value = std::ranges::find(from.values, name, &TraceValue::name);
+            return static_cast<int>(std::get<std::int64_t>(value->value));
+        };
+        if (step.paper == "Algorithm 3, line 3")
+            step.geometry.push_back(
+                row_box("row", frame, whole(step, "v"), whole(step, "w"), 0, array.grid.resolution - 1));
+        if (step.paper == "Algorithm 3, line 4")
+            step.geometry.push_back(
+                row_box("extent", frame, served.v, served.w, whole(step, "span.first"), whole(step, "span.last")));
+    }
+}
+
+}  // namespace
+
+ServedRay serve(const RowArray& array, const TraceRequest& request) {
+    const RowShape query = make_query(array, request.parameters, std::span(&request.light, 1));
+    ServedRay served;
+    const Segment asked = asked_segment(query, request);
+    served.ray = {kernel::ray_origin(query, asked.origin, request.normal), asked.target};
+    if (query.clip_to_bounds != 0) kernel::clip_to_bounds(query, served.ray.origin, served.ray.target);
+    const vec3 along_ray = served.ray.target - served.ray.origin;
+    const kernel::Direction direction = kernel::discretize_direction(query, along_ray);
+    served.theta = direction.theta;
+    served.phi = direction.phi;
+    served.direction = kernel::frame_index(query, direction);
+    const DirectionFrame& frame = array.grid.frames[static_cast<std::size_t>(served.direction)];
+    const vec3 midpoint = 0.5f * (served.ray.origin + served.ray.target);
+    served.v = kernel::voxel_index(query, kernel::along(frame.v, frame.v_offset, midpoint));
+    served.w = kernel::voxel_index(query, kernel::along(frame.w, frame.w_offset, midpoint));
+    const kernel::RowSpan span = kernel::locate_span(query, frame, direction, served.ray.origin,
+                                                     served.ray.target, query.start_offset, query.light_offset);
+    served.first = span.first;
+    served.last = span.last;
+    served.blocked = is_blocked(array, query, asked, request.normal);
+    served.row_direction = glm::normalize(frame.u);
+    if (glm::dot(served.row_direction, along_ray) < 0.0f) served.row_direction = -served.row_direction;
+    const vec3 ray_direction = glm::normalize(along_ray);
+    served.angular_error_deg = glm::degrees(std::atan2(glm::length(glm::cross(ray_direction, served.row_direction)),
+                                                       glm::dot(ray_direction, served.row_direction)));
+    const auto words = row_words(array, span.row);
+    for (int u = 0; u < query.resolution; ++u)
+        served.bits.push_back((words[static_cast<std::size_t>(u / 32)] >> (u % 32)) & 1u);
+    return served;
+}
+
+Trace trace(const RowArray& array, const TraceRequest& request) {
+    const RowShape query = make_query(array, request.parameters, std::span(&request.light, 1));
+    Trace trace;
+    trace.ray = asked_segment(query, request);
+    {
+        kernel::Recording recording;
+        const vec3 origin = kernel::ray_origin(query, trace.ray.origin, request.normal);
+        trace.blocked = kernel::is_blocked(query, {array.grid.frames.data()}, {array.words.words.data()}, origin,
+                                           trace.ray.target);
+        trace.steps = std::move(recording.steps);
+    }
+    add_geometry(trace.steps, array, serve(array, request));
+    return trace;
+}
+
+}  // namespace sightlines::voxel_rows

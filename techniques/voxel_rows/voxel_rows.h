@@ -1,0 +1,38 @@
+// Voxel rows: Wang et al. 2017, "Fast Ray-Scene Intersection for Interactive Shadow Rendering with Thousands of Dynamic
+// Lights". The technique's row in the catalog, and what its own view and benchmark ask beyond that.
+#pragma once
+
+#include <memory>
+
+#include "techniques/rays/reference.h"
+#include "techniques/technique.h"
+#include "techniques/voxel_rows/row_array.h"
+
+namespace sightlines::voxel_rows {
+
+const Technique& technique();
+
+/// The array inside a structure that `technique().build` made.
+const RowArray& row_array(const Structure& structure);
+
+/// Asks all rays of the request by its backend and counts them; no shading.
+QueryCount count_blocked(const Structure& structure, const RenderRequest& request);
+
+/// What serves one ray: everything that the view shows of it.
+struct ServedRay {
+    Segment ray;                   ///< as looked up: off the surface, clipped to the bounds
+    int direction = 0, theta = 0, phi = 0;
+    int v = 0, w = 0;              ///< of the row that holds the midpoint
+    int first = 0, last = -1;      ///< voxels kept, inclusive; first > last: nothing to look at
+    bool blocked = false;
+    vec3 row_direction{0.0f};      ///< unit, world, the way the ray goes
+    float angular_error_deg = 0.0f;
+    std::vector<bool> bits;        ///< [N] of the row
+};
+
+/// The ray of the request as the kernel serves it, recorded step by step.
+Trace trace(const RowArray& array, const TraceRequest& request);
+
+ServedRay serve(const RowArray& array, const TraceRequest& request);
+
+}  // namespace sightlines::voxel_rows

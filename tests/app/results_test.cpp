@@ -1,0 +1,109 @@
+#include "app/results.h"
+
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "techniques/base/error.h"
+
+namespace sightlines {
+namespace {
+
+Session small_session() {
+    Session session;
+    session.scene = "cornell";
+    session.size = {32, 18};
+    session.lights.count = 4;
+    session.backend = BackendChoice::cpu;
+    session.parameters["voxel_rows"] = {{"resolution", 32.0}, {"angle_step", 6.0}};
+    return session;
+}
+
+TEST(Results, RebuildNothingWhenOnlyTheLooksChange) {
+    Results results(0, Backend::cpu);
+    Progress progress;
+    Session session = small_session();
+    const auto picture = results.picture(session, progress);
+    session.display.exposure_stops = 2.0f;
+    session.selection.pixel = ivec2(1, 2);
+    EXPECT_EQ(results.picture(session, progress), picture);
+    EXPECT_EQ(results.latest_picture(session), picture);
+}
+
+TEST(Results, KeepTheStructureWhenALightChanges) {
+    Results results(0, Backend::cpu);
+    Progress progress;
+    Session session = small_session();
+    const auto picture = results.picture(session, progress);
+    const auto structure = results.structure(session, progress);
+    const auto surfaces = results.surfaces(session, progress);
+    session.lights.count = 5;
+    EXPECT_EQ(results.latest_picture(session), nullptr);
+    EXPECT_NE(results.picture(session, progress), picture);
+    EXPECT_EQ(results.structure(session, progress), structure);
+    EXPECT_EQ(results.surfaces(session, progress), surfaces);
+}
+
+TEST(Results, RebuildTheStructureWhenItsParametersChange) {
+    Results results(0, Backend::cpu);
+    Progress progress;
+    Session session = small_session();
+    const auto scene = results.scene(session, progress);
+    const auto structure = results.structure(session, progress);
+    session.parameters["voxel_rows"]["resolution"] = 48.0;
+    EXPECT_NE(results.structure(session, progress), structure);
+    EXPECT_EQ(results.scene(session, progress), scene);
+}
+
+TEST(Results, AreOneForManyThreadsThatAskAtOnce) {
+    Results results(0, Backend::cpu);
+    const Session session = small_session();
+    std::vector<Shared<RenderResult>> pictures(4);
+    {
+        std::vector<std::jthread> askers;
+        for (auto& picture : pictures)
+            askers.emplace_back([&] {
+                Progress progress;
+                picture = results.picture(session, progress);
+            });
+    }
+    for (const auto& picture : pictures) EXPECT_EQ(picture, pictures.front());
+}
+
+TEST(Results, KeepWhatTheyHadWhenTheWorkIsCancelledOrRefused) {
+    Results results(0, Backend::cpu);
+    Progress progress;
+    const Session session = small_session();
+    const auto picture = results.picture(session, progress);
+    Progress cancelled;
+    cancelled.cancel();
+    Session other = session;
+    other.lights.count = 7;
+    EXPECT_THROW(results.picture(other, cancelled), Cancelled);
+    other.camera = "nowhere";
+    EXPECT_THROW(results.picture(other, progress), InputError);
+    EXPECT_EQ(results.latest_picture(session), picture);
+}
+
+TEST(Results, DoNotDependOnTheOrderOfAsking) {
+    Progress progress;
+    const Session session = small_session();
+    Session other = session;
+    other.lights.count = 9;
+    Results one(1, Backend::cpu), two(0, Backend::cpu);
+    two.picture(other, progress);
+    EXPECT_EQ(one.picture(session, progress)->value.radiance, two.picture(session, progress)->value.radiance);
+}
+
+TEST(Results, RefuseMoreRaysThanCanBeCompared) {
+    Results results(0, Backend::cpu);
+    Progress progress;
+    Session session = small_session();
+    session.reference = true;
+    session.size = {4096, 4096};
+    session.lights.count = 65536;
+    EXPECT_THROW(results.picture(session, progress), InputError);
+}
+
+}  // namespace
+}  // namespace sightlines

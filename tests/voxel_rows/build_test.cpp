@@ -1,0 +1,176 @@
+// Both builds against naive ones.
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "tests/voxel_rows/scenes.h"
+#include "techniques/scene/surface_fragments.h"
+#include "techniques/voxel_rows/row_array.h"
+#include "techniques/voxel_rows/slice_bits.h"
+#include "techniques/voxel_rows/voxel_rows.h"
+
+namespace sightlines::voxel_rows {
+namespace {
+
+BuildOptions small_build(int resolution = 48) {
+    BuildOptions options;
+    options.resolution = resolution;
+    options.angle_step_deg = 6.0;
+    options.threads = 2;
+    return options;
+}
+
+std::size_t set_bits(std::span<const std::uint32_t> words) {
+    std::size_t count = 0;
+    for (const std::uint32_t word : words) count += static_cast<std::size_t>(std::popcount(word));
+    return count;
+}
+
+std::size_t different_bits(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) count += static_cast<std::size_t>(std::popcount(a[k] ^ b[k]));
+    return count;
+}
+
+/// Algorithm 6 word for word: every fragment into every direction by the frame alone, bit by bit.
+std::vector<std::uint32_t> splat_naively(const RowArray& like, std::span<const Fragment> fragments) {
+    const RowShape shape = make_shape(like.grid);
+    std::vector<std::uint32_t> words(like.words.words.size());
+    for (const Fragment& fragment : fragments) {
+        for (int theta = 0; theta < shape.angles; ++theta) {
+            for (int phi = 0; phi < shape.angles; ++phi) {
+                const DirectionFrame& frame = like.grid.frames[static_cast<std::size_t>(theta * shape.angles + phi)];
+                const auto voxel = [&](vec3 axis, float offset) {
+                    return scalar_kernel::voxel_index(shape, scalar_kernel::along(axis, offset, fragment.position));
+                };
+                const int u = voxel(frame.u, frame.u_offset);
+                const std::size_t row = scalar_kernel::row_index(shape, {theta, phi}, voxel(frame.v, frame.v_offset),
+                                                                 voxel(frame.w, frame.w_offset));
+                words[row * static_cast<std::size_t>(shape.words_per_row) + static_cast<std::size_t>(u / 32)] |= 1u << (u % 32);
+            }
+        }
+    }
+    return words;
+}
+
+TEST(VoxelRowsBuild, SplatsEachFragmentIntoItsVoxelOfEveryDirection) {
+    const Scene scene = testing::scattered_triangles(60, 1);
+    for (const int resolution : {32, 48, 64, 100}) {
+        const BuildOptions options = small_build(resolution);
+        Progress progress;
+        const RowArray array = build_from_fragments(scene, options, progress);
+        const std::vector<Fragment> fragments =
+            surface_fragments(scene, fragment_grid(array.grid, options.samples_per_voxel), 1, progress);
+        ASSERT_EQ(fragments.size(), array.fragments);
+        const std::vector<std::uint32_t> naive = splat_naively(array, fragments);
+        const std::size_t all = set_bits(naive);
+        ASSERT_GT(all, 100000u);
+        // The fast way rounds coordinates in the plane of theta; a fragment on a voxel's face may fall on its other side.
+        EXPECT_LT(different_bits(array.words.words, naive), all / 20000) << "resolution " << resolution;
+    }
+}
+
+TEST(VoxelRowsBuild, GivesTheSameArrayWithOneThreadAndWithTwo) {
+    const Scene scene = testing::scattered_triangles(200, 2);
+    BuildOptions options = small_build();
+    Progress progress;
+    const RowArray two = build_from_fragments(scene, options, progress);
+    options.threads = 1;
+    const RowArray one = build_from_fragments(scene, options, progress);
+    EXPECT_EQ(different_bits(one.words.words, two.words.words), 0u);
+}
+
+/// Set voxels of a that have no set voxel of b among their 27 neighbours.
+std::size_t lonely_voxels(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b, int n) {
+    std::size_t lonely = 0;
+    const auto at = [n](int u, int v, int w) { return (static_cast<std::size_t>(w) * n + v) * n + u; };
+    for (int w = 0; w < n; ++w)
+        for (int v = 0; v < n; ++v)
+            for (int u = 0; u < n; ++u) {
+                if (a[at(u, v, w)] == 0) continue;
+                bool near = false;
+                for (int k = std::max(0, w - 1); k <= std::min(n - 1, w + 1); ++k)
+                    for (int j = std::max(0, v - 1); j <= std::min(n - 1, v + 1); ++j)
+                        for (int i = std::max(0, u - 1); i <= std::min(n - 1, u + 1); ++i) near |= b[at(i, j, k)] != 0;
+                lonely += !near;
+            }
+    return lonely;
+}
+
+TEST(VoxelRowsBuild, AgreesWithTheDirectBuildToTheNeighbouringVoxel) {
+    const Scene scene = testing::scattered_triangles(60, 3);
+    Progress progress;
+    const RowArray fast = build_from_fragments(scene, small_build(), progress);
+    const RowArray direct = build_directly(scene, small_build(), progress);
+    for (int direction = 0; direction < 900; direction += 37) {
+        const auto a = unpack_voxelization(fast, direction), b = unpack_voxelization(direct, direction);
+        EXPECT_EQ(lonely_voxels(b, a, 48), 0u) << "direction " << direction;
+        // The fragments reach into sharp corners that hold no pixel centre of the direct build.
+        const auto set = static_cast<std::size_t>(std::count(a.begin(), a.end(), 1));
+        EXPECT_LT(lonely_voxels(a, b, 48), set / 10) << "direction " << direction;
+    }
+}
+
+TEST(VoxelRowsBuild, LeavesNoHoleInAWallSeenFromAnyDirection) {
+    const Scene scene = testing::wall_in_a_box(4.0f);
+    Progress progress;
+    for (const bool direct : {false, true}) {
+        const RowArray array = direct ? build_directly(scene, small_build(), progress)
+                                      : build_from_fragments(scene, small_build(), progress);
+        for (std::uint32_t k = 0; k < 20000; ++k) {
+            // From one side of the wall to the other, through its middle part, as far from it as the voxels are wide.
+            const vec3 from(-1.9f, 1.4f * random_unit(9, k, 0) - 0.7f, 1.4f * random_unit(9, k, 1) - 0.7f);
+            const vec3 to(1.9f, 1.4f * random_unit(9, k, 2) - 0.7f, 1.4f * random_unit(9, k, 3) - 0.7f);
+            TraceRequest request;
+            request.position = from;
+            request.normal = vec3(1.0f, 0.0f, 0.0f);
+            request.light.position = to;
+            ASSERT_TRUE(serve(array, request).blocked) << "direct " << direct << ", ray " << k;
+        }
+    }
+}
+
+TEST(VoxelRowsBuild, StopsWhenCancelled) {
+    Progress progress;
+    progress.cancel();
+    EXPECT_THROW(build_from_fragments(testing::scattered_triangles(10, 4), small_build(), progress), Cancelled);
+}
+
+TEST(VoxelRowsBuild, SaysHowMuchMemoryIsMissing) {
+    BuildOptions options = small_build(256);
+    options.angle_step_deg = 1.0;  // 68 GB
+    if (available_memory_bytes() > std::uint64_t{70} << 30u) GTEST_SKIP() << "this machine has the memory";
+    Progress progress;
+    EXPECT_THROW(build_from_fragments(testing::scattered_triangles(10, 4), options, progress), EnvironmentError);
+}
+
+TEST(VoxelRowsBuild, MakesAClearArrayOfASceneWithoutTriangles) {
+    Progress progress;
+    const Scene empty = testing::finished({});
+    const RowArray array = build_from_fragments(empty, small_build(32), progress);
+    EXPECT_EQ(set_bits(array.words.words), 0u);
+}
+
+TEST(SliceBits, PacksMarksAndTransposes) {
+    for (const int n : {32, 64, 100, 128, 256}) {
+        SliceBits bits(n), transposed(n);
+        std::vector<std::uint8_t> marks(bits.marks());
+        for (std::size_t k = 0; k < marks.size(); ++k) marks[k] = random_u32(3, static_cast<std::uint32_t>(k), 0) % 3 == 0;
+        const std::vector<std::uint8_t> before = marks;
+        bits.pack_and_clear(marks);
+        transposed.transpose_of(bits);
+        const auto stride = static_cast<std::size_t>(bits.stride()), blocks = static_cast<std::size_t>(bits.blocks);
+        for (std::size_t w = 0; w < stride; ++w) {
+            for (std::size_t u = 0; u < stride; ++u) {
+                ASSERT_EQ((bits.rows[w * blocks + u / 64] >> (u % 64)) & 1u, before[w * stride + u]);
+                ASSERT_EQ((transposed.rows[u * blocks + w / 64] >> (w % 64)) & 1u, before[w * stride + u]);
+                ASSERT_EQ(marks[w * stride + u], 0);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace sightlines::voxel_rows
