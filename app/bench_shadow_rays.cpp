@@ -81,7 +81,8 @@ ShadowRayBench bench_shadow_rays(const Session& session, int repetitions, Result
         };
     };
     const auto embree_by = [&](EmbreeVariant variant) {
-        return [&, variant] { return count_blocked(*embree, variant, surfaces->value, lights->value, results.threads()); };
+        return
+            [&, variant] { return count_blocked(*embree, variant, surfaces->value, lights->value, results.threads()); };
     };
     std::vector<Contestant> contestants = {
         {{"voxel_rows_cpu", "voxel rows, CPU", 0, 0, {}}, rows_on(Backend::cpu)},
@@ -91,9 +92,15 @@ ShadowRayBench bench_shadow_rays(const Session& session, int repetitions, Result
         {{"embree_16", "Embree, packets of 16", 0, 0, {}}, embree_by(EmbreeVariant::packet_16)},
         {{"embree_stream", "Embree, stream", 0, 0, {}}, embree_by(EmbreeVariant::stream)}};
 
-    ShadowRayBench bench{session, scene->value.triangles.size(), lights->value.size(),
-                         structure->value.statistics.build_seconds, embree_seconds,
-                         structure->value.statistics.structure_bytes, 0, {}, scene->value.notes};
+    ShadowRayBench bench{session,
+                         scene->value.triangles.size(),
+                         lights->value.size(),
+                         structure->value.statistics.build_seconds,
+                         embree_seconds,
+                         structure->value.statistics.structure_bytes,
+                         0,
+                         {},
+                         scene->value.notes};
     std::vector<bool> runs(contestants.size(), true);
     for (int repetition = -1; repetition < repetitions; ++repetition) {  // -1: warms up, does not count
         progress.begin("repetition " + std::to_string(repetition + 2) + " of " + std::to_string(repetitions + 1),
@@ -152,7 +159,8 @@ TextTable table_from_bench(const ShadowRayBench& bench) {
             continue;
         }
         const auto [fastest, slowest] = std::ranges::minmax(row.seconds);
-        const double blocked = row.rays > 0 ? 100.0 * static_cast<double>(row.blocked) / static_cast<double>(row.rays) : 0.0;
+        const double blocked =
+            row.rays > 0 ? 100.0 * static_cast<double>(row.blocked) / static_cast<double>(row.rays) : 0.0;
         table.rows.push_back({row.title, fixed_text(1e-6 * *rate, 1), best > 0.0 ? fixed_text(*rate / best, 2) : "-",
                               fixed_text(blocked, 2), fixed_text(fastest, 3) + " to " + fixed_text(slowest, 3)});
     }

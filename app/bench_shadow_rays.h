@@ -12,10 +12,10 @@ namespace sightlines {
 
 /// One contestant's measurements.
 struct BenchRow {
-    std::string key;                   ///< "voxel_rows_cpu", as in the JSON
+    std::string key;  ///< "voxel_rows_cpu", as in the JSON
     std::string title;
     std::uint64_t rays = 0, blocked = 0;
-    std::vector<double> seconds;       ///< of each repetition; empty: it could not run here
+    std::vector<double> seconds;  ///< of each repetition; empty: it could not run here
 };
 
 struct ShadowRayBench {
@@ -23,7 +23,7 @@ struct ShadowRayBench {
     std::size_t triangles = 0, lights = 0;
     double build_seconds = 0.0, embree_build_seconds = 0.0;
     std::uint64_t structure_bytes = 0, peak_bytes = 0;
-    std::vector<BenchRow> rows;        ///< both backends, then Embree's variants
+    std::vector<BenchRow> rows;  ///< both backends, then Embree's variants
     std::vector<std::string> notes;
 };
 

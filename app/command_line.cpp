@@ -90,8 +90,9 @@ ExitCode run_command_line(int argc, const char* const* argv) {
     CLI::App app("Sightlines: how renderers decide what can see what");
     Command chosen = main_job();
     app.require_subcommand(0, 1);
-    app.footer("Without a command: renders the built-in atrium, a view inside and a ray's trace into out/.\n\n"
-               "Example:\n  sightlines render --scene atrium --lights 1024 --size 640x360 --out atrium.png");
+    app.footer(
+        "Without a command: renders the built-in atrium, a view inside and a ray's trace into out/.\n\n"
+        "Example:\n  sightlines render --scene atrium --lights 1024 --size 640x360 --out atrium.png");
     add_list_command(app, chosen);
     add_render_command(app, chosen);
     add_trace_command(app, chosen);

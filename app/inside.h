@@ -11,9 +11,9 @@ namespace sightlines {
 
 /// A figure that `sightlines figure` makes.
 struct FigureRow {
-    std::string_view name;         ///< "voxel-row"
-    std::string_view technique;    ///< whose inside it shows
-    std::string_view about;        ///< one sentence
+    std::string_view name;       ///< "voxel-row"
+    std::string_view technique;  ///< whose inside it shows
+    std::string_view about;      ///< one sentence
 };
 
 /// The explicit list of figures.

@@ -46,7 +46,8 @@ public:
         value = json->get<std::string>();
     }
 
-    template <class Number> void number(std::string_view name, Number& value, Number lowest, Number highest) {
+    template <class Number>
+    void number(std::string_view name, Number& value, Number lowest, Number highest) {
         if (const nlohmann::json* json = find(name)) value = checked_number(*json, at(name), lowest, highest);
     }
 
@@ -76,7 +77,8 @@ public:
     }
 
     /// An enumeration, by the names of its values in order.
-    template <class Enum> void choice(std::string_view name, Enum& value, std::span<const std::string_view> names) {
+    template <class Enum>
+    void choice(std::string_view name, Enum& value, std::span<const std::string_view> names) {
         std::string chosen(names[static_cast<std::size_t>(value)]);
         text(name, chosen, 64);
         for (std::size_t i = 0; i < names.size(); ++i) {
@@ -87,7 +89,8 @@ public:
         fail_unknown(at(name), "has no choice " + chosen, chosen, names);
     }
 
-    template <class Value, class Describe> void object(std::string_view name, Value& value, Describe describe) {
+    template <class Value, class Describe>
+    void object(std::string_view name, Value& value, Describe describe) {
         const nlohmann::json* json = find(name);
         if (json == nullptr) return;
         FieldReader inner(*json, where_, at(name));
@@ -138,7 +141,8 @@ public:
         return pointer_ + "/" + escaped;
     }
 
-    [[noreturn]] void fail(const std::string& pointer, const std::string& problem, const std::string& remedy = {}) const {
+    [[noreturn]] void fail(const std::string& pointer, const std::string& problem,
+                           const std::string& remedy = {}) const {
         throw InputError(where_, pointer, problem, remedy);
     }
 
@@ -188,7 +192,8 @@ public:
     void boolean(std::string_view name, bool value) { json_[std::string(name)] = value; }
     void text(std::string_view name, const std::string& value, std::size_t) { json_[std::string(name)] = value; }
 
-    template <class Number> void number(std::string_view name, Number value, Number, Number) {
+    template <class Number>
+    void number(std::string_view name, Number value, Number, Number) {
         json_[std::string(name)] = short_number(value);
     }
     template <class Number>
@@ -206,10 +211,12 @@ public:
                          Number highest) {
         if (value) vector(name, *value, lowest, highest);
     }
-    template <class Enum> void choice(std::string_view name, Enum value, std::span<const std::string_view> names) {
+    template <class Enum>
+    void choice(std::string_view name, Enum value, std::span<const std::string_view> names) {
         json_[std::string(name)] = names[static_cast<std::size_t>(value)];
     }
-    template <class Value, class Describe> void object(std::string_view name, const Value& value, Describe describe) {
+    template <class Value, class Describe>
+    void object(std::string_view name, const Value& value, Describe describe) {
         FieldWriter inner;
         describe(inner, value);
         json_[std::string(name)] = inner.take();
@@ -234,7 +241,8 @@ public:
 
 private:
     /// A float as the shortest decimal number that reads back the same: 0.1, not 0.10000000149011612.
-    template <class Number> static nlohmann::json short_number(Number value) {
+    template <class Number>
+    static nlohmann::json short_number(Number value) {
         if constexpr (std::same_as<Number, float>) {
             char text[32];
             const auto written = std::to_chars(text, text + sizeof text, value);

@@ -34,10 +34,18 @@ Json all_parameters(const Session& session) {
         const double value = parameter_value(table, technique_parameters(session), row.name);
         const std::string name(row.name);
         switch (row.kind) {
-            case ParameterKind::boolean: all[name] = value != 0.0; break;
-            case ParameterKind::choice: all[name] = parameter_text(row, value); break;
-            case ParameterKind::integer: all[name] = static_cast<std::int64_t>(value); break;
-            case ParameterKind::real: all[name] = value; break;
+            case ParameterKind::boolean:
+                all[name] = value != 0.0;
+                break;
+            case ParameterKind::choice:
+                all[name] = parameter_text(row, value);
+                break;
+            case ParameterKind::integer:
+                all[name] = static_cast<std::int64_t>(value);
+                break;
+            case ParameterKind::real:
+                all[name] = value;
+                break;
         }
     }
     return all;
@@ -82,9 +90,7 @@ Json json_from_report(const RenderReport& report) {
                  {"device", picture.device},
                  {"seed", report.session.seed},
                  {"parameters", all_parameters(report.session)}};
-    json["seconds"] = {{"load", report.load_seconds},
-                       {"build", statistics.build_seconds},
-                       {"render", picture.seconds}};
+    json["seconds"] = {{"load", report.load_seconds}, {"build", statistics.build_seconds}, {"render", picture.seconds}};
     if (statistics.compress_seconds > 0.0) json["seconds"]["compress"] = statistics.compress_seconds;
     json["rays"] = {{"asked", picture.rays}, {"traced", picture.rays_traced}};
     json["mrays_per_second"] = 1e-6 * rays_per_second(picture);
@@ -135,12 +141,16 @@ std::string text_from_report(const RenderReport& report) {
 ImageRgba8 shown_channel(const RenderReport& report) {
     const RenderResult& picture = report.picture->value;
     switch (report.session.channel) {
-        case Channel::lit: break;
-        case Channel::reference: return shown(report.reference->value.radiance, report.session.display);
-        case Channel::shadow: return colour_mapped(picture.shadow, 0.0f, 1.0f);
+        case Channel::lit:
+            break;
+        case Channel::reference:
+            return shown(report.reference->value.radiance, report.session.display);
+        case Channel::shadow:
+            return colour_mapped(picture.shadow, 0.0f, 1.0f);
         case Channel::visibility_error:
             return colour_mapped(report.errors->value.visibility_error, 0.0f, visibility_error_shown);
-        case Channel::shadow_error: return colour_mapped(report.errors->value.shadow_error, -1.0f, 1.0f);
+        case Channel::shadow_error:
+            return colour_mapped(report.errors->value.shadow_error, -1.0f, 1.0f);
         case Channel::rays:
             return colour_mapped(scalar_from(picture.rays_asked), 0.0f,
                                  static_cast<float>(report.lights->value.size()));

@@ -19,9 +19,9 @@ struct RenderReport {
     Shared<std::vector<Light>> lights;
     Shared<BuiltStructure> structure;
     Shared<RenderResult> picture;
-    Shared<RenderResult> reference;   ///< null without
-    Shared<ErrorMetrics> errors;      ///< null without
-    double load_seconds = 0.0;        ///< file and scene, not the reference's hierarchy
+    Shared<RenderResult> reference;  ///< null without
+    Shared<ErrorMetrics> errors;     ///< null without
+    double load_seconds = 0.0;       ///< file and scene, not the reference's hierarchy
 };
 
 /// Makes the picture, and the reference where the session asks for one.

@@ -210,7 +210,8 @@ Shared<RenderResult> Results::reference(const Session& session, Progress& progre
 Shared<ErrorMetrics> Results::errors(const Session& session, Progress& progress) {
     const auto ours = picture(session, progress);
     const auto truth = reference(session, progress);
-    return errors_.get(picture_part(resolved(session)), progress, false, [&] { return compare(ours->value, truth->value); });
+    return errors_.get(picture_part(resolved(session)), progress, false,
+                       [&] { return compare(ours->value, truth->value); });
 }
 
 Shared<RenderResult> Results::latest_picture(const Session& session) const {

@@ -17,11 +17,13 @@
 namespace sightlines {
 
 /// A result and what it took to make it.
-template <class Value> struct Made {
+template <class Value>
+struct Made {
     Value value;
     double seconds = 0.0;
 };
-template <class Value> using Shared = std::shared_ptr<const Made<Value>>;
+template <class Value>
+using Shared = std::shared_ptr<const Made<Value>>;
 
 /// A built structure, with the scene that it came from kept alive.
 struct BuiltStructure {
@@ -33,7 +35,8 @@ struct BuiltStructure {
 
 /// The latest result of one stage, and the part of the session that it was made from. Any number of threads may ask;
 /// one makes, and the others wait for it (and give up when their own progress is cancelled).
-template <class Value> class Stage {
+template <class Value>
+class Stage {
 public:
     /// The result for `part`, or null where the latest one is for another part. Does not wait for work under way.
     Shared<Value> latest(const Session& part) const {
@@ -43,7 +46,8 @@ public:
 
     /// The result for `part`, by `make()` where the latest one is not it. `forget_first`: lets go of the latest one
     /// before making the next, so that two large ones never live at the same time.
-    template <class Make> Shared<Value> get(const Session& part, Progress& progress, bool forget_first, Make make);
+    template <class Make>
+    Shared<Value> get(const Session& part, Progress& progress, bool forget_first, Make make);
 
 private:
     void keep(const std::optional<Session>& part, Shared<Value> value) {
@@ -90,7 +94,8 @@ public:
 
 private:
     Session resolved(Session session) const;
-    RenderRequest request(const Session& session, const SurfaceBuffer& surfaces, const std::vector<Light>& lights) const;
+    RenderRequest request(const Session& session, const SurfaceBuffer& surfaces,
+                          const std::vector<Light>& lights) const;
 
     int threads_;
     Backend automatic_;

@@ -21,8 +21,8 @@ bool is_asked(const Light& light, vec3 position, vec3 normal) {
 
 bool asks_any(const SurfaceBuffer& surfaces, std::size_t pixel, const std::vector<Light>& lights) {
     return surfaces.triangle[pixel] != no_triangle && std::ranges::any_of(lights, [&](const Light& light) {
-        return is_asked(light, surfaces.position[pixel], surfaces.normal[pixel]);
-    });
+               return is_asked(light, surfaces.position[pixel], surfaces.normal[pixel]);
+           });
 }
 
 std::string pixel_text(ivec2 pixel) { return std::to_string(pixel.x) + "," + std::to_string(pixel.y); }
@@ -32,8 +32,8 @@ ivec2 checked_pixel(const SurfaceBuffer& surfaces, ivec2 pixel) {
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size.width || pixel.y >= size.height)
         throw InputError("--pixel", "", pixel_text(pixel) + " lies outside the picture",
                          "from 0,0 to " + pixel_text({size.width - 1, size.height - 1}));
-    const std::size_t index = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(size.width) +
-                              static_cast<std::size_t>(pixel.x);
+    const std::size_t index =
+        static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(pixel.x);
     if (surfaces.triangle[index] == no_triangle)
         throw InputError("--pixel", "", pixel_text(pixel) + " shows the background, which asks no rays",
                          "choose a pixel on a surface");
@@ -49,8 +49,8 @@ ivec2 middle_pixel(const SurfaceBuffer& surfaces, const std::vector<Light>& ligh
             const ivec2 off(x - size.width / 2, y - size.height / 2);
             const int distance = off.x * off.x + off.y * off.y;
             if (best && distance >= best_distance) continue;
-            const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
-                                      static_cast<std::size_t>(x);
+            const std::size_t pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x);
             if (!asks_any(surfaces, pixel, lights)) continue;
             best = ivec2(x, y);
             best_distance = distance;
@@ -69,13 +69,13 @@ std::uint32_t checked_light(std::uint32_t light, ivec2 pixel, std::span<const st
                          light_count == 0 ? "there are no lights" : "0 to " + std::to_string(light_count - 1));
     if (std::ranges::find(asked, light) != asked.end()) return light;
     const auto after = std::ranges::lower_bound(asked, light);
-    const std::string near = asked.empty() ? "no light is in front of it"
-                                           : "light " + std::to_string(after == asked.end() ? asked.back() : *after) +
-                                                 " is in front of it";
-    throw InputError("--light", "",
-                     std::to_string(light) + " stands behind the surface at pixel " + pixel_text(pixel) +
-                         ", so no ray is asked",
-                     near);
+    const std::string near =
+        asked.empty() ? "no light is in front of it"
+                      : "light " + std::to_string(after == asked.end() ? asked.back() : *after) + " is in front of it";
+    throw InputError(
+        "--light", "",
+        std::to_string(light) + " stands behind the surface at pixel " + pixel_text(pixel) + ", so no ray is asked",
+        near);
 }
 
 }  // namespace

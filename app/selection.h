@@ -18,9 +18,9 @@ struct SelectedRay {
 };
 
 /// The ray that the session selects. A pixel that is not selected becomes the one nearest to the picture's middle that
-/// asks any ray; a light that is not, the first that the technique judges wrongly there, else the first that is blocked,
-/// else the first. InputError where the selected pixel lies outside or shows the background, or the light does not
-/// exist or stands behind the surface.
+/// asks any ray; a light that is not, the first that the technique judges wrongly there, else the first that is
+/// blocked, else the first. InputError where the selected pixel lies outside or shows the background, or the light does
+/// not exist or stands behind the surface.
 SelectedRay select_ray(const Session& session, Results& results, Progress& progress);
 
 /// The lights in front of a surface, in order: those that its pixel asks.

@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 3> backend_names{"automatic", "cpu", "vul
 constexpr std::array<std::string_view, 2> camera_kind_names{"perspective", "orthographic"};
 constexpr std::array<std::string_view, 3> theme_names{"light", "dark", "print"};
 constexpr std::array<std::string_view, 2> cut_away_names{"none", "to_row"};
-constexpr std::array<std::string_view, 6> channel_names{"lit",   "reference", "shadow", "visibility_error",
+constexpr std::array<std::string_view, 6> channel_names{"lit",          "reference", "shadow", "visibility_error",
                                                         "shadow_error", "rays"};
 
 constexpr auto describe_size = [](auto& fields, auto& size) {
@@ -115,10 +115,10 @@ Json json_from_parameters(const Session& session) {
             const auto table = find_technique(technique_name).parameters;
             const auto row = std::ranges::find(table, std::string_view(name), &Parameter::name);
             const bool as_text = row->kind == ParameterKind::choice;
-            own[name] = as_text                                 ? Json(parameter_text(*row, value))
-                        : row->kind == ParameterKind::boolean   ? Json(value != 0.0)
-                        : row->kind == ParameterKind::integer   ? Json(static_cast<std::int64_t>(value))
-                                                                : Json(value);
+            own[name] = as_text                               ? Json(parameter_text(*row, value))
+                        : row->kind == ParameterKind::boolean ? Json(value != 0.0)
+                        : row->kind == ParameterKind::integer ? Json(static_cast<std::int64_t>(value))
+                                                              : Json(value);
         }
         if (!own.empty()) all[technique_name] = std::move(own);
     }
@@ -149,19 +149,17 @@ const Technique& technique_at(const std::string& name, const FieldReader& fields
     }
 }
 
-void check_camera(const Camera& camera, const FieldReader& fields) {
-    const vec3 view = camera.target - camera.position;
-    const float sine = glm::length(glm::cross(view, camera.up));
-    if (!(sine > 1e-6f * glm::length(view) * glm::length(camera.up)))
-        fields.fail("/free_camera", "has no picture: it looks at its own position, or along its up direction",
-                    "move target_m or turn up");
-}
-
 bool is_builtin(const std::string& scene) {
     return std::ranges::any_of(builtin_scenes(), [&](const SceneModel& model) { return model.name == scene; });
 }
 
 }  // namespace
+
+bool has_picture(const Camera& camera) {
+    const vec3 view = camera.target - camera.position;
+    const float sine = glm::length(glm::cross(view, camera.up));
+    return sine > 1e-6f * glm::length(view) * glm::length(camera.up);
+}
 
 bool needs_reference(const Session& session) {
     return session.reference || session.channel == Channel::reference || session.channel == Channel::visibility_error ||
@@ -197,7 +195,9 @@ Session session_from_json(const Json& json, const std::string& where) {
     }
     fields.finish();
     check_size(session.size, where, "/size");
-    if (session.free_camera) check_camera(*session.free_camera, fields);
+    if (session.free_camera && !has_picture(*session.free_camera))
+        fields.fail("/free_camera", "has no picture: it looks at its own position, or along its up direction",
+                    "move target_m or turn up");
     return session;
 }
 
@@ -221,7 +221,8 @@ Json read_json(const fs::path& file) {
         const auto upto = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), error.byte));
         const auto line = 1 + std::count(bytes.begin(), upto, '\n');
         const auto line_start = std::find(std::make_reverse_iterator(upto), bytes.rend(), '\n').base();
-        throw InputError(file.string(), "line " + std::to_string(line) + ", column " + std::to_string(upto - line_start),
+        throw InputError(file.string(),
+                         "line " + std::to_string(line) + ", column " + std::to_string(upto - line_start),
                          "is not JSON", "see what stands there");
     }
 }
@@ -232,13 +233,13 @@ Session load_session(const fs::path& file) {
 
 Json with_paths_in(Json json, const fs::path& folder, const std::string& where) {
     if (!json.is_object()) return json;
-    const fs::path home = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder);
+    const fs::path home = fs::weakly_canonical(fs::absolute(folder.empty() ? fs::path(".") : folder));
     for (const char* field : {"scene", "environment"}) {
         const auto found = json.find(field);
         if (found == json.end() || !found->is_string()) continue;
         const auto path = found->get<std::string>();
         if (path.empty() || is_builtin(path)) continue;
-        const fs::path relative = fs::weakly_canonical(folder / path).lexically_relative(home);
+        const fs::path relative = fs::weakly_canonical(fs::absolute(folder / path)).lexically_relative(home);
         if (relative.empty() || *relative.begin() == "..")
             throw InputError(where, std::string("/") + field, path + " lies outside the session's folder",
                              "move it there, or name it on the command line");

@@ -35,10 +35,10 @@ enum class Channel { lit, reference, shadow, visibility_error, shadow_error, ray
 
 /// What the user points at. `light` counts the session's lights, `step` the recorded steps of that ray.
 struct Selection {
-    std::optional<ivec2> pixel;          ///< (0, 0) is the top left corner
+    std::optional<ivec2> pixel;  ///< (0, 0) is the top left corner
     std::optional<std::uint32_t> light;
     std::uint32_t step = 0;
-    std::optional<ivec3> voxel;          ///< (u, v, w) of the voxelization that serves the ray
+    std::optional<ivec3> voxel;  ///< (u, v, w) of the voxelization that serves the ray
 
     bool operator==(const Selection&) const = default;
 };
@@ -52,18 +52,18 @@ struct View {
 };
 
 struct Session {
-    std::string scene = "atrium";        ///< a built-in scene's name, or a .gltf or .glb file
+    std::string scene = "atrium";  ///< a built-in scene's name, or a .gltf or .glb file
     double time_s = 0.0;
-    std::string camera;                  ///< one of the scene's cameras; empty: its first
-    std::optional<Camera> free_camera;   ///< wins over `camera`: the user has moved
+    std::string camera;                 ///< one of the scene's cameras; empty: its first
+    std::optional<Camera> free_camera;  ///< wins over `camera`: the user has moved
     ImageSize size;
     LightChoice lights;
-    std::string environment;             ///< a picture of the sky; empty: none
+    std::string environment;  ///< a picture of the sky; empty: none
     std::string technique = "voxel_rows";
     std::map<std::string, ParameterValues> parameters;  ///< by technique; those that differ from its table's defaults
     BackendChoice backend = BackendChoice::automatic;
     std::uint64_t seed = 1;
-    bool reference = false;              ///< also ask the same rays by Embree and report the errors
+    bool reference = false;  ///< also ask the same rays by Embree and report the errors
     Selection selection;
     std::vector<View> views;
     Display display;
@@ -95,12 +95,16 @@ Json read_json(const std::filesystem::path& file);
 /// A saved session. A scene file's path is taken from the session file's own folder, which it must not leave.
 Session load_session(const std::filesystem::path& file);
 
-/// `json` (a session or a patch, from a file in `folder`) with the scene's and the environment's path put in relation to
-/// where the program runs. InputError for a path that leads out of `folder`: a session from others reads nothing else.
+/// `json` (a session or a patch, from a file in `folder`) with the scene's and the environment's path put in relation
+/// to where the program runs. InputError for a path that leads out of `folder`: a session from others reads nothing
+/// else.
 Json with_paths_in(Json json, const std::filesystem::path& folder, const std::string& where);
 
 /// Complete or not at all. Paths become relative to the file's folder.
 void save_session(const std::filesystem::path& file, Session session);
+
+/// Whether the camera looks anywhere: not at its own position, and not along its up direction.
+bool has_picture(const Camera& camera);
 
 /// InputError unless 1 <= width, height <= max_side_pixels and the whole is at most max_picture_pixels.
 void check_size(ImageSize size, const std::string& where, const std::string& place);

@@ -35,11 +35,16 @@ std::string value_text(const TraceValue& value) {
     const std::string text = std::visit(
         [](const auto& held) -> std::string {
             using Held = std::decay_t<decltype(held)>;
-            if constexpr (std::is_same_v<Held, vec3>) return point_text(held);
-            else if constexpr (std::is_same_v<Held, bool>) return held ? "true" : "false";
-            else if constexpr (std::is_same_v<Held, std::string>) return held;
-            else if constexpr (std::is_same_v<Held, double>) return fixed_text(held, 4);
-            else return std::to_string(held);
+            if constexpr (std::is_same_v<Held, vec3>)
+                return point_text(held);
+            else if constexpr (std::is_same_v<Held, bool>)
+                return held ? "true" : "false";
+            else if constexpr (std::is_same_v<Held, std::string>)
+                return held;
+            else if constexpr (std::is_same_v<Held, double>)
+                return fixed_text(held, 4);
+            else
+                return std::to_string(held);
         },
         value.value);
     return value.unit.empty() ? text : text + " " + value.unit;

@@ -16,6 +16,12 @@ FN Vec3 to_light(LightRecord light, Vec3 position, float reach_m) {
     return splat(light.position) - position;
 }
 
+/// Where the shadow ray ends: the light itself, or far along a directional light.
+FN Vec3 light_end(LightRecord light, Vec3 position, float reach_m) {
+    if (light.kind == light_directional) return position - splat(light.direction * reach_m);
+    return splat(light.position);
+}
+
 /// The ray is asked where the light is in front of the surface; otherwise the surface itself is in the way.
 FN Mask is_asked(Vec3 normal, Vec3 to_the_light) { return dot3(normal, to_the_light) > splat(0.0f); }
 

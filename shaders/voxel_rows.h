@@ -69,8 +69,15 @@ FN Direction discretize_direction(RowShape shape, Vec3 along_line) {
     return direction;
 }
 
-FN Real along(Vec3 axis, Real offset, Vec3 point) {
-    return fused(axis.z, point.z, fused(axis.y, point.y, fused(axis.x, point.x, offset)));
+/// The voxel coordinate of a point, given from the centre of the bounds, along an axis of a frame.
+FN Real along(RowShape shape, Vec3 axis, Vec3 point) {
+    const Real middle = splat(0.5f * float(shape.resolution));
+    return fused(axis.z, point.z, fused(axis.y, point.y, fused(axis.x, point.x, middle)));
+}
+
+/// The same along the level axis v.
+FN Real along_level(RowShape shape, Frame frame, Vec3 point) {
+    return fused(frame.v_z, point.z, fused(frame.v_x, point.x, splat(0.5f * float(shape.resolution))));
 }
 
 /// The index of a coordinate's voxel, kept inside the grid.
@@ -78,34 +85,16 @@ FN Int voxel_index(RowShape shape, Real coordinate) {
     return to_int(min(max(coordinate, splat(0.0f)), splat(float(shape.resolution) - 0.5f)));
 }
 
-#ifndef LAYOUT
-#define LAYOUT 3
-#endif
 /// Where a row lies in memory, counted in rows. Rays that are asked together want neighbouring directions and rows, so
-/// these lie together: blocks of 2 x 2 directions by 8 x 8 rows (4 KiB at 128 bits), and in them lines of 2 x 2 rows.
+/// these lie together: in blocks of 2 x 2 directions by 8 x 8 rows (4 KiB at 128 bits).
 FN UInt row_index(RowShape shape, Direction direction, Int v, Int w) {
     const int blocks = (shape.resolution + 7) / 8;
+    const Int one = splat(1);
+    const Int seven = splat(7);
     const Int directions = (direction.theta >> 1) * splat(shape.angles / 2) + (direction.phi >> 1);
     const Int block = (directions * splat(blocks) + (v >> 3)) * splat(blocks) + (w >> 3);
-    const Int one = splat(1);
-    const Int t = direction.theta & one;
-    const Int p = direction.phi & one;
-#if LAYOUT == 0
-    return to_uint(((direction.theta*splat(shape.angles)+direction.phi) * splat(blocks*8) + v) * splat(blocks*8) + w);
-#elif LAYOUT == 1 // line: 4w
-    const Int inside = (t << 7) | (p << 6) | ((v & splat(7)) << 3) | (w & splat(7));
-#elif LAYOUT == 2 // line 2v x 2w
-    const Int inside = (t << 7) | (p << 6) | (((v >> 1) & splat(3)) << 4) | (((w >> 1) & splat(3)) << 2) | ((v & one) << 1) | (w & one);
-#elif LAYOUT == 3 // line 2t x 2v
-    const Int inside = (p << 7) | (((v >> 1) & splat(3)) << 5) | ((w & splat(7)) << 2) | (t << 1) | (v & one);
-#elif LAYOUT == 4 // line 2p x 2w
-    const Int inside = (t << 7) | ((v & splat(7)) << 4) | (((w >> 1)& splat(3)) << 2) | (p << 1) | (w & one);
-#elif LAYOUT == 5 // line 2t x 2p
-    const Int inside = ((v & splat(7)) << 5) | ((w & splat(7)) << 2) | (p << 1) | t;
-#endif
-#if LAYOUT != 0
-    return to_uint((block << 8) | inside);
-#endif
+    const Int which_direction = ((direction.theta & one) << 1) | (direction.phi & one);
+    return to_uint((block << 8) | (which_direction << 6) | ((v & seven) << 3) | (w & seven));
 }
 
 /// The row that holds the midpoint of the segment a b, and the voxels between its ends. `start_offset` and
@@ -114,15 +103,16 @@ FN RowSpan locate_span(RowShape shape, Frame frame, Direction direction, Vec3 a,
                        float light_offset) {
     RowSpan span;
     const Vec3 midpoint = (a + b) * splat(0.5f);
-    const Int v = voxel_index(shape, along(frame.v, frame.v_offset, midpoint));
-    const Int w = voxel_index(shape, along(frame.w, frame.w_offset, midpoint));
+    const Vec3 centre = splat(shape.centre);
+    const Int v = voxel_index(shape, along_level(shape, frame, midpoint - centre));
+    const Int w = voxel_index(shape, along(shape, frame.w, midpoint - centre));
     span.row = row_index(shape, direction, v, w);
     NOTE("Algorithm 3, line 3", "The row that holds the ray's midpoint stands for the whole ray.");
     SHOW_POINT(midpoint);
     SHOW(v);
     SHOW(w);
-    const Real at_a = along(frame.u, frame.u_offset, a);
-    const Real at_b = along(frame.u, frame.u_offset, b);
+    const Real at_a = along(shape, frame.u, a - centre);
+    const Real at_b = along(shape, frame.u, b - centre);
     const Mask forward = at_b > at_a;
     const Real low = select(forward, at_a + splat(start_offset), at_b + splat(light_offset));
     const Real high = select(forward, at_b - splat(light_offset), at_a - splat(start_offset));
@@ -180,11 +170,11 @@ FN Mask span_is_blocked(RowShape shape, Rows rows, RowSpan span) {
     return blocked;
 }
 
-/// Narrows [enter, leave] (fractions of the ray) to the part between two planes.
-FN void clip_to_slab(float low, float high, Real start, Real extent, INOUT(Real) enter, INOUT(Real) leave) {
+/// Narrows [enter, leave] (fractions of the ray) to the part between the planes centre - half and centre + half.
+FN void clip_to_slab(float centre, float half_size, Real start, Real extent, INOUT(Real) enter, INOUT(Real) leave) {
     const Real safe_extent = select(abs(extent) < splat(1.0e-20f), splat(1.0e-20f), extent);
-    const Real at_low = (splat(low) - start) / safe_extent;
-    const Real at_high = (splat(high) - start) / safe_extent;
+    const Real at_low = (splat(centre - half_size) - start) / safe_extent;
+    const Real at_high = (splat(centre + half_size) - start) / safe_extent;
     enter = max(enter, min(at_low, at_high));
     leave = min(leave, max(at_low, at_high));
 }
@@ -194,9 +184,9 @@ FN void clip_to_bounds(RowShape shape, INOUT(Vec3) a, INOUT(Vec3) b) {
     const Vec3 along_ray = b - a;
     Real enter = splat(0.0f);
     Real leave = splat(1.0f);
-    clip_to_slab(shape.lowest.x, shape.highest.x, a.x, along_ray.x, enter, leave);
-    clip_to_slab(shape.lowest.y, shape.highest.y, a.y, along_ray.y, enter, leave);
-    clip_to_slab(shape.lowest.z, shape.highest.z, a.z, along_ray.z, enter, leave);
+    clip_to_slab(shape.centre.x, shape.half_size.x, a.x, along_ray.x, enter, leave);
+    clip_to_slab(shape.centre.y, shape.half_size.y, a.y, along_ray.y, enter, leave);
+    clip_to_slab(shape.centre.z, shape.half_size.z, a.z, along_ray.z, enter, leave);
     enter = min(enter, splat(1.0f));
     leave = max(leave, enter);
     b = a + along_ray * leave;
@@ -208,16 +198,16 @@ FN Vec3 ray_origin(RowShape shape, Vec3 position, Vec3 normal) {
     return position + normal * splat(shape.normal_offset_m);
 }
 
-/// Where the answer to the ray from a to b lies: one span, or two where each half of the ray has a row of its own.
-FN void locate_spans(RowShape shape, FrameTable frames, Direction direction, Vec3 a, Vec3 b, OUT(RowSpan) near,
-                     OUT(RowSpan) far) {
+/// Where the answer to the ray from a to b lies: in `near` or, where each half of the ray has a row of its own, in both.
+/// `far` is set only then.
+FN void locate_spans(RowShape shape, FrameTable frames, Direction direction, Vec3 a, Vec3 b, INOUT(RowSpan) near,
+                     INOUT(RowSpan) far) {
     const Frame frame = load_frame(frames, frame_index(shape, direction));
     NOTE("Algorithm 3, line 2", "The voxelization whose rows run in that direction is chosen.");
     SHOW(direction.theta);
     SHOW(direction.phi);
     if (shape.subrays == 1) {
         near = locate_span(shape, frame, direction, a, b, shape.start_offset, shape.light_offset);
-        far = near;
     } else {
         const Vec3 middle = (a + b) * splat(0.5f);
         near = locate_span(shape, frame, direction, a, middle, shape.start_offset, 0.0f);

@@ -7,14 +7,13 @@
 SHARED_BEGIN
 
 /// World to voxel coordinates of one direction's voxelization: u along the rows, v and w across them, each in [0, N]
-/// over the scene's bounds. coordinate = dot(axis, world point) + offset. 48 bytes, scalar layout.
+/// over the scene's bounds. coordinate = dot(axis, world point - centre of the bounds) + N / 2. The axis v = (v_x, 0, v_z)
+/// is level in every direction. 32 bytes, scalar layout: half a cache line, read for every ray.
 struct DirectionFrame {
     vec3 u;
-    float u_offset;
-    vec3 v;
-    float v_offset;
+    float v_x;
     vec3 w;
-    float w_offset;
+    float v_z;
 };
 
 /// What a query must know of the array and of the parameters. 64 bytes, scalar layout.
@@ -27,16 +26,16 @@ struct RowShape {
     float start_offset;        // voxels left out along the row at the surface
     float light_offset;        // voxels left out along the row at the light
     int clip_to_bounds;        // 1 where lights may lie outside the bounds
-    vec3 lowest;               // of the bounds, m
+    vec3 centre;               // of the bounds, m
     float reach_m;             // how far directional lights are put away
-    vec3 highest;
+    vec3 half_size;            // of the bounds, m
     float normal_offset_m;     // how far a ray starts off the surface along its normal
 };
 
 SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(sightlines::DirectionFrame) == 48 && sizeof(sightlines::RowShape) == 64);
+static_assert(sizeof(sightlines::DirectionFrame) == 32 && sizeof(sightlines::RowShape) == 64);
 #endif
 
 #endif

@@ -59,11 +59,12 @@ void main() {
             const uint k = uint(findLSB(left));
             const LightRecord light = light_of(held, k);
             const vec3 light_offset = to_light(light, surface.position, query.reach_m);
-            const bool in_the_way = is_blocked(query, job.frames, job.rows, origin, surface.position + light_offset);
+            const vec3 end = light_end(light, surface.position, query.reach_m);
+            const bool in_the_way = is_blocked(query, job.frames, job.rows, origin, end);
             blocked |= in_the_way ? 1u << k : 0u;
             if (shade) {
                 const bool seen = !in_the_way && (asked >> k & 1u) != 0u;
-                const float given = seen ? irradiance_per_intensity(light, surface.normal, light_offset) : 0.0f;
+                const float given = seen ? irradiance_per_intensity(light, surface.shading_normal, light_offset) : 0.0f;
                 sums.irradiance = fma(vec3(given), light.intensity, sums.irradiance);
             }
         }
@@ -71,8 +72,8 @@ void main() {
         sums.asked += uint(bitCount(asked));
         sums.blocked += uint(bitCount(blocked));
         verdicts |= blocked << (first % 32u);
-        const uint end = first + count;
-        if (job.words_per_pixel != 0u && (end % 32u == 0u || end == job.end_light)) {
+        const uint next = first + count;
+        if (job.words_per_pixel != 0u && (next % 32u == 0u || next == job.end_light)) {
             job.verdicts.v[pixel * job.words_per_pixel + first / 32u] = verdicts;
             verdicts = 0u;
         }

@@ -13,10 +13,11 @@
 
 SHARED_BEGIN
 
-/// The surface under one pixel. 24 bytes, scalar layout.
+/// The surface under one pixel. 36 bytes, scalar layout.
 struct SurfacePoint {
-    vec3 position;   // m
-    vec3 normal;     // unit; zero: nothing is asked for this pixel
+    vec3 position;         // m
+    vec3 normal;           // unit, geometric; zero: nothing is asked for this pixel
+    vec3 shading_normal;   // unit
 };
 
 /// What a pixel has gathered from the lights so far. 20 bytes, scalar layout.
@@ -51,7 +52,7 @@ struct LightingJob {
 SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(sightlines::SurfacePoint) == 24 && sizeof(sightlines::PixelSums) == 20);
+static_assert(sizeof(sightlines::SurfacePoint) == 36 && sizeof(sightlines::PixelSums) == 20);
 static_assert(sizeof(sightlines::LightingJob) == 128);
 #endif
 

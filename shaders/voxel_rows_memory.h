@@ -13,23 +13,15 @@ BUFFER_REF(FrameTable, DirectionFrame);
 /// A frame for each ray.
 struct Frame {
     Vec3 u;
-    Real u_offset;
-    Vec3 v;
-    Real v_offset;
+    Real v_x;
     Vec3 w;
-    Real w_offset;
+    Real v_z;
 };
 
 FN Frame load_frame(FrameTable frames, Int direction) {
-    const auto numbers = load_records<12>(&frames.v[0].u.x, direction);
-    Frame frame;
-    frame.u = Vec3{numbers[0], numbers[1], numbers[2]};
-    frame.u_offset = numbers[3];
-    frame.v = Vec3{numbers[4], numbers[5], numbers[6]};
-    frame.v_offset = numbers[7];
-    frame.w = Vec3{numbers[8], numbers[9], numbers[10]};
-    frame.w_offset = numbers[11];
-    return frame;
+    const auto u = gather_four_floats(&frames.v[0].u.x, direction, sizeof(DirectionFrame) / sizeof(float));
+    const auto w = gather_four_floats(&frames.v[0].w.x, direction, sizeof(DirectionFrame) / sizeof(float));
+    return {{u[0], u[1], u[2]}, u[3], {w[0], w[1], w[2]}, w[3]};
 }
 
 BUFFER_REF(Rows, uint);
@@ -73,10 +65,9 @@ layout(set = 0, binding = 0) uniform samplerBuffer frame_texels;
 layout(set = 0, binding = 1) uniform usamplerBuffer row_texels;
 
 FN Frame load_frame(FrameTable frames, Int direction) {
-    const vec4 u = texelFetch(frame_texels, 3 * direction);
-    const vec4 v = texelFetch(frame_texels, 3 * direction + 1);
-    const vec4 w = texelFetch(frame_texels, 3 * direction + 2);
-    return Frame(u.xyz, u.w, v.xyz, v.w, w.xyz, w.w);
+    const vec4 u = texelFetch(frame_texels, 2 * direction);
+    const vec4 w = texelFetch(frame_texels, 2 * direction + 1);
+    return Frame(u.xyz, u.w, w.xyz, w.w);
 }
 #else
 FN Frame load_frame(FrameTable frames, Int direction) { return frames.v[direction]; }

@@ -79,8 +79,8 @@ HWY_INLINE Mask operator||(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
 HWY_INLINE Mask operator!(Mask a) { return {hn::Not(a.m)}; }
 HWY_INLINE Mask operator&&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
 
-HWY_INLINE Real min(Real a, Real b) { return {hn::IfThenElse(hn::Lt(a.v, b.v), a.v, b.v)}; }
-HWY_INLINE Real max(Real a, Real b) { return {hn::IfThenElse(hn::Gt(a.v, b.v), a.v, b.v)}; }
+HWY_INLINE Real min(Real a, Real b) { return {hn::Min(a.v, b.v)}; }
+HWY_INLINE Real max(Real a, Real b) { return {hn::Max(a.v, b.v)}; }
 // Of uniform values.
 HWY_INLINE float min(float a, float b) { return a < b ? a : b; }
 HWY_INLINE float max(float a, float b) { return a > b ? a : b; }
@@ -89,7 +89,12 @@ HWY_INLINE Int max(Int a, Int b) { return {hn::Max(a.v, b.v)}; }
 HWY_INLINE Real select(Mask mask, Real a, Real b) { return {hn::IfThenElse(mask.m, a.v, b.v)}; }
 HWY_INLINE Int select(Mask mask, Int a, Int b) { return {hn::IfThenElse(hn::RebindMask(IntTag(), mask.m), a.v, b.v)}; }
 
+#if HWY_TARGET <= HWY_AVX3
+// Highway's conversion saturates, for four more instructions; kernels convert only what is in range.
+HWY_INLINE Int to_int(Real x) { return {hn::Vec<IntTag>{_mm512_cvttps_epi32(x.v.raw)}}; }
+#else
 HWY_INLINE Int to_int(Real x) { return {hn::ConvertTo(IntTag(), x.v)}; }
+#endif
 HWY_INLINE Real to_real(Int x) { return {hn::ConvertTo(RealTag(), x.v)}; }
 HWY_INLINE UInt to_uint(Int x) { return {hn::BitCast(UIntTag(), x.v)}; }
 
@@ -115,6 +120,10 @@ HWY_INLINE Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - 
 HWY_INLINE Vec3 operator*(Vec3 a, Real b) { return {a.x * b, a.y * b, a.z * b}; }
 
 HWY_INLINE Real load(const float* from) { return {hn::LoadU(RealTag(), from)}; }
+/// The lanes of the mask side by side from `to` on; writes a whole vector, garbage behind them.
+HWY_INLINE void store_compressed(Real x, Mask mask, float* to) {
+    hn::StoreU(hn::Compress(x.v, mask.m), RealTag(), to);
+}
 HWY_INLINE void store(Real x, float* to) { hn::StoreU(x.v, RealTag(), to); }
 HWY_INLINE void store(Int x, int* to) { hn::StoreU(x.v, IntTag(), to); }
 HWY_INLINE void store(UInt x, uint* to) { hn::StoreU(x.v, UIntTag(), to); }
@@ -127,26 +136,13 @@ HWY_INLINE std::uint32_t bits_of(Mask mask) {
     std::memcpy(&bits, bytes, sizeof bits);
     return bits;
 }
-HWY_INLINE bool any(Mask mask) { return !hn::AllFalse(RealTag(), mask.m); }
-
-/// Record `index` (of N floats) of a table for each ray. Neighbouring rays mostly want the same record, so each
-/// distinct one is broadcast under a mask: several times faster here than N gathers.
-template <int N> HWY_INLINE std::array<Real, N> load_records(const float* table, Int index) {
-    alignas(64) int each[lanes];
-    hn::Store(index.v, IntTag(), each);
-    std::array<Real, N> record;
-    const float* first = table + static_cast<std::ptrdiff_t>(each[0]) * N;
-    for (int k = 0; k < N; ++k) record[static_cast<std::size_t>(k)] = splat(first[k]);
-    auto missing = bits_of({hn::RebindMask(RealTag(), hn::Ne(index.v, hn::Set(IntTag(), each[0])))});
-    while (missing != 0) {
-        const int wanted = each[static_cast<std::size_t>(__builtin_ctz(missing))];
-        const Mask same = index == splat(wanted);
-        const float* from = table + static_cast<std::ptrdiff_t>(wanted) * N;
-        for (std::size_t k = 0; k < N; ++k) record[k] = select(same, splat(from[k]), record[k]);
-        missing &= ~bits_of(same);
-    }
-    return record;
+/// The mask of whose lanes bit i speaks.
+HWY_INLINE Mask mask_of(std::uint32_t bits) {
+    alignas(8) std::uint8_t bytes[8] = {};
+    std::memcpy(bytes, &bits, sizeof bits);
+    return {hn::LoadMaskBits(RealTag(), bytes)};
 }
+HWY_INLINE bool any(Mask mask) { return !hn::AllFalse(RealTag(), mask.m); }
 
 /// words[index * stride] for each ray.
 HWY_INLINE UInt gather_words(const uint* words, UInt index, int stride) {
@@ -156,20 +152,22 @@ HWY_INLINE UInt gather_words(const uint* words, UInt index, int stride) {
     return {hn::Load(UIntTag(), gathered)};
 }
 
-/// words[index * stride + 0 .. 3] for each ray: one 128-bit load a ray, transposed by fours.
+#if HWY_TARGET <= HWY_AVX3
+/// words[index * stride + 0 .. 3] for each ray: one 128-bit load a ray, transposed by fours. Beats eight gathers, and
+/// a loop over the distinct indices, whose branches are unpredictable.
 HWY_INLINE FourWords gather_four_words(const uint* words, UInt index, int stride) {
     alignas(64) uint each[lanes];
     hn::Store(index.v, UIntTag(), each);
     const auto from = [&](std::size_t lane) {
         return reinterpret_cast<const __m128i*>(words + static_cast<std::size_t>(each[lane]) * stride);
     };
-    const auto rows_of = [&](std::size_t lane) {
-        __m512i rows = _mm512_castsi128_si512(_mm_loadu_si128(from(lane)));
-        rows = _mm512_inserti32x4(rows, _mm_loadu_si128(from(lane + 4)), 1);
-        rows = _mm512_inserti32x4(rows, _mm_loadu_si128(from(lane + 8)), 2);
-        return _mm512_inserti32x4(rows, _mm_loadu_si128(from(lane + 12)), 3);
+    const auto every_fourth = [&](std::size_t lane) {
+        __m512i four = _mm512_castsi128_si512(_mm_loadu_si128(from(lane)));
+        four = _mm512_inserti32x4(four, _mm_loadu_si128(from(lane + 4)), 1);
+        four = _mm512_inserti32x4(four, _mm_loadu_si128(from(lane + 8)), 2);
+        return _mm512_inserti32x4(four, _mm_loadu_si128(from(lane + 12)), 3);
     };
-    const __m512i a = rows_of(0), b = rows_of(1), c = rows_of(2), d = rows_of(3);
+    const __m512i a = every_fourth(0), b = every_fourth(1), c = every_fourth(2), d = every_fourth(3);
     const __m512i ab_low = _mm512_unpacklo_epi32(a, b), ab_high = _mm512_unpackhi_epi32(a, b);
     const __m512i cd_low = _mm512_unpacklo_epi32(c, d), cd_high = _mm512_unpackhi_epi32(c, d);
     using Words = hn::Vec<UIntTag>;
@@ -177,6 +175,20 @@ HWY_INLINE FourWords gather_four_words(const uint* words, UInt index, int stride
             {Words{_mm512_unpackhi_epi64(ab_low, cd_low)}},
             {Words{_mm512_unpacklo_epi64(ab_high, cd_high)}},
             {Words{_mm512_unpackhi_epi64(ab_high, cd_high)}}};
+}
+#else
+/// words[index * stride + 0 .. 3] for each ray.
+HWY_INLINE FourWords gather_four_words(const uint* words, UInt index, int stride) {
+    return {gather_words(words, index, stride), gather_words(words + 1, index, stride),
+            gather_words(words + 2, index, stride), gather_words(words + 3, index, stride)};
+}
+#endif
+
+/// numbers[index * stride + 0 .. 3] for each ray.
+HWY_INLINE std::array<Real, 4> gather_four_floats(const float* numbers, Int index, int stride) {
+    const FourWords four = gather_four_words(reinterpret_cast<const uint*>(numbers), to_uint(index), stride);
+    const auto real = [](UInt word) { return Real{hn::BitCast(RealTag(), word.v)}; };
+    return {real(four.x), real(four.y), real(four.z), real(four.w)};
 }
 
 }  // namespace sightlines::wide_kernel

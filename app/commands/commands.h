@@ -15,14 +15,14 @@ namespace sightlines {
 
 /// What a command has to say once its work is done and its files are written.
 struct CommandOutput {
-    std::string text;                  ///< for standard output
-    std::vector<std::string> notes;    ///< worth knowing but no error: one line each on standard error
+    std::string text;                ///< for standard output
+    std::vector<std::string> notes;  ///< worth knowing but no error: one line each on standard error
 };
 
 /// What runs after the command line has been read.
 struct Command {
     std::function<CommandOutput(Progress&)> work;
-    bool quiet = false;                ///< neither a bar nor notes
+    bool quiet = false;  ///< neither a bar nor notes
 };
 
 /// Each adds its subcommand to `app`; when that is the one on the command line, parsing fills `chosen`.

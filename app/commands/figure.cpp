@@ -46,8 +46,7 @@ CommandOutput figure_to_files(const Session& session, const FigureFlags& flags, 
     for (const FigureFormat format : formats) {
         progress.check();
         options.format = format;
-        const auto written =
-            write_voxel_row_figure(view, picture, view_state(session, name), options, flags.folder);
+        const auto written = write_voxel_row_figure(view, picture, view_state(session, name), options, flags.folder);
         for (const auto& file : written) files.push_back(file.string());
         if (!common.json && !common.quiet) output.text += "wrote " + written.front().string() + "\n";
         progress.advance();
@@ -78,8 +77,9 @@ void add_figure_command(CLI::App& app, Command& chosen) {
     add_session_flags(command, flags->session);
     add_selection_flags(command, flags->session);
     add_common_flags(command, flags->common);
-    command.footer("Without --pixel: one near the middle; without --light: one that is judged wrongly, if there is one.\n\n"
-                   "Example:\n  sightlines figure voxel-row --scene atrium --lights 1024 --format svg --out figures");
+    command.footer(
+        "Without --pixel: one near the middle; without --light: one that is judged wrongly, if there is one.\n\n"
+        "Example:\n  sightlines figure voxel-row --scene atrium --lights 1024 --format svg --out figures");
     command.callback([flags, &chosen] {
         chosen = {[flags](Progress& progress) {
                       const Session session = session_with_flags({}, flags->session);

@@ -13,7 +13,7 @@ namespace sightlines {
 
 struct FigureFlags {
     std::string name, dpi;
-    std::vector<std::string> formats;   ///< png, svg, pdf, vtk; empty: png
+    std::vector<std::string> formats;  ///< png, svg, pdf, vtk; empty: png
     std::filesystem::path folder;
 };
 

@@ -27,11 +27,13 @@ std::size_t choice_of(const std::string& flag, const std::string& text, const st
     const std::string near = nearest_name(text, names);
     std::string all;
     for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-    throw InputError(flag, "", "has no choice " + text, near.empty() ? "there are: " + all : "did you mean " + near + "?");
+    throw InputError(flag, "", "has no choice " + text,
+                     near.empty() ? "there are: " + all : "did you mean " + near + "?");
 }
 
 /// Text that is wholly one number of the given kind.
-template <class Number> bool is_number(const std::string& text, Number& number) {
+template <class Number>
+bool is_number(const std::string& text, Number& number) {
     const char* end = text.data() + text.size();
     const auto read = std::from_chars(text.data(), end, number);
     return read.ec == std::errc{} && read.ptr == end;
@@ -50,6 +52,41 @@ void set_parameter(Session& session, const std::string& text) {
     if (values.empty()) session.parameters.erase(session.technique);
 }
 
+/// Whether the text is meant as a pose: it starts as a number does, and has a comma.
+bool is_pose(const std::string& text) {
+    return std::string_view("-.0123456789").find(text.front()) != std::string_view::npos &&
+           text.find(',') != std::string::npos;
+}
+
+/// x,y,z:tx,ty,tz[:fov]
+Camera pose_camera(const std::string& text) {
+    const auto refuse = [&](const std::string& problem) {
+        throw InputError("--camera", "", "'" + text + "' " + problem,
+                         "for example --camera 8,2.5,0:-2,3,0 or, with its vertical field of view, 8,2.5,0:-2,3,0:60");
+    };
+    constexpr float farthest_m = 1e9f;
+    std::vector<float> numbers;
+    std::string separators;
+    for (std::size_t start = 0; start <= text.size();) {
+        const std::size_t end = std::min(text.find_first_of(",:", start), text.size());
+        float& number = numbers.emplace_back();
+        if (!is_number(text.substr(start, end - start), number) || !(std::abs(number) <= farthest_m))
+            refuse("has something else than a number (to 1e9) as its part " + std::to_string(numbers.size()));
+        if (end < text.size()) separators += text[end];
+        start = end + 1;
+    }
+    if (separators != ",,:,," && separators != ",,:,,:") refuse("is not x,y,z:tx,ty,tz or x,y,z:tx,ty,tz:fov");
+    Camera camera;
+    camera.name = "free";
+    camera.position = {numbers[0], numbers[1], numbers[2]};
+    camera.target = {numbers[3], numbers[4], numbers[5]};
+    if (numbers.size() > 6) camera.vertical_field_of_view_deg = numbers[6];
+    if (!(camera.vertical_field_of_view_deg >= 1.0f && camera.vertical_field_of_view_deg <= 170.0f))
+        refuse("has a field of view that is not from 1 to 170 degrees");
+    if (!has_picture(camera)) refuse("has no picture: it looks at its own position, or straight up or down");
+    return camera;
+}
+
 CLI::Validator not_empty() {
     return CLI::Validator([](std::string& text) { return text.empty() ? std::string("is empty") : std::string(); }, "");
 }
@@ -63,10 +100,12 @@ void add_session_flags(CLI::App& command, SessionFlags& flags) {
     };
     option("--technique", flags.technique, "The technique: see `sightlines list techniques`", "T");
     option("--scene", flags.scene, "A built-in scene's name, or a .gltf or .glb file", "S");
-    option("--camera", flags.camera, "One of the scene's cameras; its first otherwise", "C");
+    option("--camera", flags.camera,
+           "One of the scene's cameras by name, or a pose x,y,z:tx,ty,tz[:fov] (metres, degrees)", "C");
     option("--size", flags.size, "The picture's width and height in pixels", "WxH");
     option("--lights", flags.lights, "So many seeded point lights; 0: the scene's own", "N");
-    option("--placement", flags.placement, "Where they are: volume (spread through the scene) or sphere (around it)", "P");
+    option("--placement", flags.placement, "Where they are: volume (spread through the scene) or sphere (around it)",
+           "P");
     option("--time", flags.time_s, "The moment of the scene's animation, in seconds", "S");
     command.add_option("--set", flags.parameters, "Parameters: see `sightlines list parameters`")
         ->type_name("name=value")
@@ -99,8 +138,9 @@ Session session_with_flags(Session session, const SessionFlags& flags) {
     find_technique(session.technique);
     if (!flags.scene.empty()) session.scene = flags.scene;
     if (!flags.camera.empty()) {
-        session.camera = flags.camera;
-        session.free_camera.reset();
+        const bool pose = is_pose(flags.camera);
+        session.camera = pose ? std::string() : flags.camera;
+        session.free_camera = pose ? std::optional(pose_camera(flags.camera)) : std::nullopt;
     }
     if (!flags.size.empty()) {
         const ivec2 size = two_numbers("--size", flags.size, 'x', 1, max_side_pixels);
@@ -120,7 +160,8 @@ Session session_with_flags(Session session, const SessionFlags& flags) {
         throw InputError("--seed", "", "'" + flags.seed + "' is not a seed", "a whole number from 0 to 2^64 - 1");
     for (const std::string& parameter : flags.parameters) set_parameter(session, parameter);
     session.reference = session.reference || flags.reference;
-    if (!flags.pixel.empty()) session.selection.pixel = two_numbers("--pixel", flags.pixel, ',', 0, max_side_pixels - 1);
+    if (!flags.pixel.empty())
+        session.selection.pixel = two_numbers("--pixel", flags.pixel, ',', 0, max_side_pixels - 1);
     if (!flags.light.empty())
         session.selection.light = static_cast<std::uint32_t>(whole_number("--light", flags.light, 0, max_lights - 1));
     return session;
@@ -148,9 +189,10 @@ ivec2 two_numbers(const std::string& flag, const std::string& text, char separat
     const bool read = middle != std::string::npos && is_number(text.substr(0, middle), numbers.x) &&
                       is_number(text.substr(middle + 1), numbers.y);
     if (!read || numbers.x < lowest || numbers.y < lowest || numbers.x > highest || numbers.y > highest)
-        throw InputError(flag, "", "'" + text + "' is not two whole numbers from " + std::to_string(lowest) + " to " +
-                                       std::to_string(highest),
-                         std::string("for example ") + (separator == 'x' ? "640x360" : "320,180"));
+        throw InputError(
+            flag, "",
+            "'" + text + "' is not two whole numbers from " + std::to_string(lowest) + " to " + std::to_string(highest),
+            std::string("for example ") + (separator == 'x' ? "640x360" : "320,180"));
     return numbers;
 }
 
@@ -167,7 +209,7 @@ void check_outputs(const std::vector<fs::path>& files) {
     for (const fs::path& file : files) {
         if (file.empty()) continue;
         check_writable(file);
-        if (!seen.insert(fs::weakly_canonical(file)).second)
+        if (!seen.insert(fs::weakly_canonical(fs::absolute(file))).second)
             throw InputError(file.string(), "", "is named for two outputs", "give each a file of its own");
     }
 }

@@ -18,7 +18,7 @@ namespace sightlines {
 /// InputError that names its flag.
 struct SessionFlags {
     std::string technique, scene, camera, size, lights, placement, time_s, backend, seed, pixel, light;
-    std::vector<std::string> parameters;   ///< name=value
+    std::vector<std::string> parameters;  ///< name=value
     bool reference = false;
 };
 

@@ -20,8 +20,8 @@ namespace {
 struct Listing {
     TextTable table;
     Json json = Json::array();
-    std::string empty = "nothing";   ///< said where there is nothing to list
-    std::string after;               ///< a last line, for people only
+    std::string empty = "nothing";  ///< said where there is nothing to list
+    std::string after;              ///< a last line, for people only
 };
 
 Listing list_techniques() {
@@ -30,11 +30,12 @@ Listing list_techniques() {
     for (const Technique& technique : techniques()) {
         listing.table.rows.push_back(
             {std::string(technique.name), std::string(technique.title), std::string(technique.about)});
-        listing.json.push_back({{"name", technique.name},
-                                {"title", technique.title},
-                                {"about", technique.about},
-                                {"paper", technique.paper},
-                                {"stages", std::vector<std::string>(technique.stages.begin(), technique.stages.end())}});
+        listing.json.push_back(
+            {{"name", technique.name},
+             {"title", technique.title},
+             {"about", technique.about},
+             {"paper", technique.paper},
+             {"stages", std::vector<std::string>(technique.stages.begin(), technique.stages.end())}});
     }
     return listing;
 }
@@ -69,10 +70,15 @@ Listing list_figures() {
 }
 
 Json parameter_json(const Technique& technique, const Parameter& row) {
-    Json json = {{"technique", technique.name},    {"name", row.name},       {"title", row.title}, {"unit", row.unit},
-                 {"default", row.default_value},   {"lowest", row.lowest},   {"highest", row.highest},
-                 {"help", row.help},               {"affects", row.affects == ParameterAffects::structure ? "structure"
-                                                                                                         : "picture"}};
+    Json json = {{"technique", technique.name},
+                 {"name", row.name},
+                 {"title", row.title},
+                 {"unit", row.unit},
+                 {"default", row.default_value},
+                 {"lowest", row.lowest},
+                 {"highest", row.highest},
+                 {"help", row.help},
+                 {"affects", row.affects == ParameterAffects::structure ? "structure" : "picture"}};
     constexpr const char* kinds[] = {"integer", "real", "boolean", "choice"};
     json["kind"] = kinds[static_cast<std::size_t>(row.kind)];
     if (row.paper_value) json["paper"] = *row.paper_value;

@@ -27,8 +27,8 @@ void check_render_outputs(const RenderOutputs& outputs) {
     check_outputs({outputs.picture, outputs.report, outputs.error_picture, outputs.session});
 }
 
-CommandOutput render_to_files(Session session, const RenderOutputs& outputs, Results& results, const CommonFlags& common,
-                              Progress& progress) {
+CommandOutput render_to_files(Session session, const RenderOutputs& outputs, Results& results,
+                              const CommonFlags& common, Progress& progress) {
     check_render_outputs(outputs);
     session.reference = session.reference || !outputs.error_picture.empty();
     const RenderReport report = render_session(session, results, progress);
@@ -74,8 +74,9 @@ void add_render_command(CLI::App& app, Command& chosen) {
         ->type_name("FILE");
     add_render_output_flags(command, flags->outputs);
     add_common_flags(command, flags->common);
-    command.footer("Example:\n  sightlines render --technique voxel_rows --scene atrium --lights 1024 --size 640x360 "
-                   "--reference --out atrium.png");
+    command.footer(
+        "Example:\n  sightlines render --technique voxel_rows --scene atrium --lights 1024 --size 640x360 "
+        "--reference --out atrium.png");
     command.callback([flags, &chosen] {
         chosen = {[flags](Progress& progress) {
                       const Session session = session_with_flags({}, flags->session);

@@ -21,7 +21,7 @@ void add_render_output_flags(CLI::App& command, RenderOutputs& outputs);
 
 /// Checks that everything can be written, renders, writes, and gives the report (as JSON with --json, none with
 /// --quiet). Nothing is written unless all of the work is done.
-CommandOutput render_to_files(Session session, const RenderOutputs& outputs, Results& results, const CommonFlags& common,
-                              Progress& progress);
+CommandOutput render_to_files(Session session, const RenderOutputs& outputs, Results& results,
+                              const CommonFlags& common, Progress& progress);
 
 }  // namespace sightlines

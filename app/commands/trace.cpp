@@ -63,8 +63,9 @@ void add_trace_command(CLI::App& app, Command& chosen) {
     command.add_option("--ray", flags->ray, "Instead of --light: the pixel's K-th ray, counted from 0")->type_name("K");
     command.add_option("--out", flags->out, "Write everything that was recorded, as JSON")->type_name("FILE.json");
     add_common_flags(command, flags->common);
-    command.footer("Without --pixel: one near the middle; without --light: one that is judged wrongly, if there is one.\n\n"
-                   "Example:\n  sightlines trace --scene atrium --lights 1024 --size 640x360 --pixel 320,180 --out ray.json");
+    command.footer(
+        "Without --pixel: one near the middle; without --light: one that is judged wrongly, if there is one.\n\n"
+        "Example:\n  sightlines trace --scene atrium --lights 1024 --size 640x360 --pixel 320,180 --out ray.json");
     command.callback([flags, &chosen] {
         chosen = {[flags](Progress& progress) { return run_trace(*flags, progress); }, flags->common.quiet};
     });

@@ -39,8 +39,7 @@ CommandOutput run_workspace(const WorkspaceFlags& flags, Progress& progress) {
     if (!flags.figure.name.empty() && flags.figure.folder.empty())
         throw InputError("--figure", "", "needs a folder to write into", "give --out FOLDER");
     if (!flags.figure.name.empty()) return figure_to_files(session, flags.figure, results, flags.common, progress);
-    if (!flags.outputs.picture.empty())
-        return render_to_files(session, flags.outputs, results, flags.common, progress);
+    if (!flags.outputs.picture.empty()) return render_to_files(session, flags.outputs, results, flags.common, progress);
     throw EnvironmentError("workspace", "there is no window to open it in",
                            "--render FILE.png makes its picture, --figure NAME --out FOLDER one of its figures");
 }
@@ -51,12 +50,11 @@ void add_workspace_command(CLI::App& app, Command& chosen) {
     CLI::App& command = *app.add_subcommand("workspace", "Render a saved session, or make a figure of it");
     const auto flags = std::make_shared<WorkspaceFlags>();
     command
-        .add_option("files", flags->files,
-                    "A session as JSON; further files change it, each a merge patch (RFC 7386)")
+        .add_option("files", flags->files, "A session as JSON; further files change it, each a merge patch (RFC 7386)")
         ->required()
         ->type_name("FILE.json ...");
-    CLI::Option* render = command.add_option("--render", flags->outputs.picture, "The picture to write: .png or .hdr")
-                              ->type_name("FILE");
+    CLI::Option* render =
+        command.add_option("--render", flags->outputs.picture, "The picture to write: .png or .hdr")->type_name("FILE");
     add_figure_flags(command, flags->figure);
     command.add_option("--out", flags->figure.folder, "The folder that a figure is written into")->type_name("FOLDER");
     command.add_option("--figure", flags->figure.name, "Make this figure instead: see `sightlines list figures`")

@@ -9,12 +9,12 @@
 namespace sightlines {
 
 int thread_count(int threads) {
-    return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    const int processors = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    return threads > 0 ? std::min(threads, processors) : processors;
 }
 
 void parallel_for(std::int64_t count, int threads, const std::function<void(std::int64_t)>& body) {
-    // More threads than processors gain nothing, and TBB would complain on standard error.
-    tbb::task_arena arena(std::min(thread_count(threads), thread_count(0)));
+    tbb::task_arena arena(thread_count(threads));
     arena.execute([&] {
         tbb::parallel_for(
             tbb::blocked_range<std::int64_t>(0, count, 1),

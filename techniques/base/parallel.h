@@ -10,7 +10,8 @@ namespace sightlines {
 /// An exception (Cancelled too) from a body stops the rest and is rethrown here.
 void parallel_for(std::int64_t count, int threads, const std::function<void(std::int64_t)>& body);
 
-/// `threads` as given, or the machine's number where it is 0.
+/// How many threads such work runs on: `threads`, or the machine's number of processors where that is less or `threads`
+/// is 0. More would gain nothing, and TBB would complain on standard error.
 int thread_count(int threads);
 
 }  // namespace sightlines

@@ -185,7 +185,7 @@ std::shared_ptr<const EmbreeScene> build_embree_scene(const Scene& scene, Embree
 
     BuildMonitor monitor{progress};
     rtcSetSceneProgressMonitorFunction(embree->scene.get(), monitor_build, &monitor);
-    tbb::task_arena arena(std::min(thread_count(threads), thread_count(0)));
+    tbb::task_arena arena(thread_count(threads));
     arena.execute([&] { rtcJoinCommitScene(embree->scene.get()); });
     rtcSetSceneProgressMonitorFunction(embree->scene.get(), nullptr, nullptr);
     progress.check();

@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "techniques/base/error.h"
+#include "techniques/scene/automatic_cameras.h"
 #include "techniques/scene/gltf_limits.h"
 #include "techniques/scene/gltf_scene.h"
 
@@ -217,7 +218,8 @@ void place_cameras_and_lights(Scene& scene, const GltfScene& model, const Pose& 
             scene.lights.push_back(light);
         }
     }
-    if (scene.cameras.empty()) scene.cameras.push_back(model.framing ? *model.framing : framing_camera(scene.bounds));
+    if (scene.cameras.empty())
+        scene.cameras = model.automatic_cameras.empty() ? automatic_cameras(scene) : model.automatic_cameras;
 }
 
 /// A texture is looked up only where the scene has the coordinates that it asks for.

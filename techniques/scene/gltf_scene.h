@@ -61,9 +61,9 @@ struct GltfScene {
     double duration_s = 0.0;
     std::vector<Material> materials;
     std::vector<Texture> textures;
-    std::vector<Camera> cameras;    ///< lens and name only; the node places them
-    std::vector<Light> lights;      ///< colour, intensity and cone only
-    std::optional<Camera> framing;  ///< where the file has no camera
+    std::vector<Camera> cameras;            ///< lens and name only; the node places them
+    std::vector<Light> lights;              ///< colour, intensity and cone only
+    std::vector<Camera> automatic_cameras;  ///< where the file has none: those at time 0, at all times
     std::vector<std::string> notes;
 };
 

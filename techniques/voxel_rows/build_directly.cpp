@@ -52,15 +52,11 @@ void rasterize_along(int axis, const std::array<vec3, 3>& corners, Marks& marks)
     }
 }
 
-void voxelize(const Scene& scene, const DirectionFrame& frame, Marks& marks) {
+void voxelize(const Scene& scene, const RowShape& shape, const DirectionFrame& frame, Marks& marks) {
     for (const uvec3& triangle : scene.triangles) {
         std::array<vec3, 3> corners;
-        for (int k = 0; k < 3; ++k) {
-            const vec3 point = scene.positions[triangle[k]];
-            corners[static_cast<std::size_t>(k)] = {scalar_kernel::along(frame.u, frame.u_offset, point),
-                                                    scalar_kernel::along(frame.v, frame.v_offset, point),
-                                                    scalar_kernel::along(frame.w, frame.w_offset, point)};
-        }
+        for (int k = 0; k < 3; ++k)
+            corners[static_cast<std::size_t>(k)] = voxel_coordinates(shape, frame, scene.positions[triangle[k]]);
         for (int axis = 0; axis < 3; ++axis) rasterize_along(axis, corners, marks);
     }
 }
@@ -78,7 +74,7 @@ RowArray build_directly(const Scene& scene, const BuildOptions& options, Progres
         SliceBits bits(n), transposed(n);
         for (int phi = 0; phi < half; ++phi) {
             const int direction = static_cast<int>(theta) * array.grid.angles + phi;
-            voxelize(scene, array.grid.frames[static_cast<std::size_t>(direction)], marks);
+            voxelize(scene, shape, array.grid.frames[static_cast<std::size_t>(direction)], marks);
             for (int v = 0; v < n; ++v) {
                 bits.pack_and_clear(std::span(marks.bytes).subspan(static_cast<std::size_t>(v) * bits.marks(), bits.marks()));
                 transposed.transpose_of(bits);

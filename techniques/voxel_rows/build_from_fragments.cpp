@@ -26,13 +26,15 @@ int voxel_of(float coordinate, int resolution) {
     return std::clamp(static_cast<int>(coordinate), 0, resolution - 1);
 }
 
-SlicedFragments slice_fragments(std::span<const vec3> positions, const DirectionFrame& frame, vec3 horizontal,
-                                int resolution) {
+/// positions: from the centre of the bounds.
+SlicedFragments slice_fragments(std::span<const vec3> positions, const RowShape& shape, const DirectionFrame& frame,
+                                vec3 horizontal) {
+    const int resolution = shape.resolution;
     SlicedFragments sliced;
     sliced.first.assign(static_cast<std::size_t>(resolution) + 1, 0);
     std::vector<std::uint16_t> slice_of(positions.size());
     for (std::size_t k = 0; k < positions.size(); ++k) {
-        const int slice = voxel_of(scalar_kernel::along(frame.v, frame.v_offset, positions[k]), resolution);
+        const int slice = voxel_of(scalar_kernel::along_level(shape, frame, positions[k]), resolution);
         slice_of[k] = static_cast<std::uint16_t>(slice);
         ++sliced.first[static_cast<std::size_t>(slice) + 1];
     }
@@ -50,12 +52,11 @@ SlicedFragments slice_fragments(std::span<const vec3> positions, const Direction
 
 /// The affine map of one direction from (height, reach) to its voxel coordinates u and w.
 struct PlaneMap {
-    float u_height, u_reach, u_offset, w_height, w_reach, w_offset;
+    float u_height, u_reach, w_height, w_reach;
 };
 
 PlaneMap plane_map(const DirectionFrame& frame, vec3 horizontal) {
-    return {frame.u.y, glm::dot(frame.u, horizontal), frame.u_offset,
-            frame.w.y, glm::dot(frame.w, horizontal), frame.w_offset};
+    return {frame.u.y, glm::dot(frame.u, horizontal), frame.w.y, glm::dot(frame.w, horizontal)};
 }
 
 /// Marks the slice's fragments in a byte a voxel: bytes[w * stride + u]. Coordinates lie in [0, N] by the fitted box.
@@ -63,14 +64,14 @@ void mark_fragments(const PlaneMap& map, std::span<const float> height, std::spa
                     int stride, std::uint8_t* bytes) {
     constexpr std::size_t batch = 64;
     alignas(64) std::array<int, batch> place;
-    const float last = static_cast<float>(resolution) - 0.5f;
+    const float half = 0.5f * static_cast<float>(resolution), last = static_cast<float>(resolution) - 0.5f;
     for (std::size_t begin = 0; begin < height.size(); begin += batch) {
         const std::size_t count = std::min(batch, height.size() - begin);
         const float* a = &height[begin];
         const float* b = &reach[begin];
         for (std::size_t k = 0; k < count; ++k) {
-            const float u = fused(map.u_height, a[k], fused(map.u_reach, b[k], map.u_offset));
-            const float w = fused(map.w_height, a[k], fused(map.w_reach, b[k], map.w_offset));
+            const float u = fused(map.u_height, a[k], fused(map.u_reach, b[k], half));
+            const float w = fused(map.w_height, a[k], fused(map.w_reach, b[k], half));
             const float u_inside = u < 0.0f ? 0.0f : (u > last ? last : u);
             const float w_inside = w < 0.0f ? 0.0f : (w > last ? last : w);
             place[k] = static_cast<int>(w_inside) * stride + static_cast<int>(u_inside);
@@ -87,7 +88,7 @@ void splat_theta(RowArray& array, const RowShape& shape, std::span<const vec3> p
     const vec3 horizontal(std::cos(angle), 0.0, std::sin(angle));
     const int first_direction = theta * grid.angles;
     const SlicedFragments sliced =
-        slice_fragments(positions, grid.frames[static_cast<std::size_t>(first_direction)], horizontal, n);
+        slice_fragments(positions, shape, grid.frames[static_cast<std::size_t>(first_direction)], horizontal);
     SliceBits bits(n), transposed(n);
     std::vector<std::uint8_t> bytes(bits.marks());
     for (int v = 0; v < n; ++v) {
@@ -121,7 +122,7 @@ RowArray build_from_fragments(const Scene& scene, const BuildOptions& options, P
     std::vector<vec3> positions;
     const FragmentGrid cells = fragment_grid(array.grid, options.samples_per_voxel);
     for (const Fragment& fragment : surface_fragments(scene, cells, options.threads, progress))
-        positions.push_back(fragment.position);
+        positions.push_back(fragment.position - array.grid.bounds.centre());
     array.fragments = positions.size();
     progress.begin("splatting fragments into all directions", array.grid.angles);
     const RowShape shape = make_shape(array.grid);

@@ -3,8 +3,13 @@
 // groups before its bits are looked at, because the array is far larger than any cache.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
 #include <mutex>
+
+#ifdef __BMI2__
+#include <immintrin.h>
+#endif
 
 #include "shaders/wide.h"  // first: makes the kernels below wide
 
@@ -41,18 +46,22 @@ struct TileSums {
     }
 };
 
-/// One vector of rays on its way through the three steps: discretise, locate, look.
+/// One vector of rays on its way through the steps.
 struct PendingRays {
     wide::Direction direction;
     wide::RowSpan near, far;
-    Mask asked;
-    std::size_t start;  ///< of its pixels in the tile
 };
 
-/// The vectors of one batch in which any ray is asked.
+/// The rays that a batch of vectors of pixels asks of one light, packed so that no lane is idle.
 struct Batch {
-    std::array<PendingRays, batch_vectors> rays;
-    std::size_t count = 0;
+    std::size_t first = 0, count = 0;                  ///< the vectors of pixels
+    std::array<std::uint32_t, batch_vectors> asked;    ///< which pixels of each ask, bit by lane
+    std::size_t rays = 0;                              ///< in all
+    bool common_end = false;                           ///< all rays end at the light itself; b is not kept
+    std::array<std::array<float, (batch_vectors + 1) * lanes>, 6> ends;  ///< x, y, z of a, then of b; packed
+    std::array<PendingRays, batch_vectors> pending;    ///< vectors of packed rays
+
+    std::size_t vectors() const { return (rays + lanes - 1) / lanes; }
 };
 
 struct TileWork {
@@ -70,7 +79,7 @@ HWY_INLINE Vec3 load_three(const std::vector<float> (&axes)[3], std::size_t star
 
 /// The rows of some rays spread over the block of 4 x 4 pixels; those of the others mostly share their cache lines.
 HWY_INLINE void prefetch_rows(const wide::Rows& rows, const UInt& row, int words_per_row) {
-    constexpr std::size_t step = lanes == 16 ? 3 : 1;
+    constexpr std::size_t step = PSTEP;
     const auto* index = reinterpret_cast<const uint*>(&row);
     for (std::size_t lane = 0; lane < lanes; lane += step)
         __builtin_prefetch(rows.v + static_cast<std::size_t>(index[lane]) * words_per_row);
@@ -81,42 +90,66 @@ HWY_INLINE void prefetch(const TileWork& work, const RowShape& query, const Pend
     if (query.subrays == 2) prefetch_rows(work.rows, rays.far.row, query.words_per_row);
 }
 
-/// The ray's ends as the kernel looks them up: off the surface, and inside the bounds where lights may be outside.
-HWY_INLINE void ray_ends(const TileWork& work, const RowShape& query, std::size_t start, Vec3 to_light, Vec3& a, Vec3& b) {
-    const Vec3 position = load_three(work.pixels.position, start);
-    const Vec3 normal = load_three(work.pixels.normal, start);
-    a = wide::ray_origin(query, position, normal);
-    b = position + to_light;
-    if (query.clip_to_bounds != 0) wide::clip_to_bounds(query, a, b);
-}
-
-HWY_INLINE Vec3 to_light_of(const TileWork& work, const LightRecord& light, std::size_t start) {
-    return wide::to_light(light, load_three(work.pixels.position, start), work.query.reach_m);
-}
-
-/// Takes up those of the vectors first, first + 1 ... in which any light ray starts from the front of its surface.
-HWY_INLINE void gather_asked(const TileWork& work, const LightRecord& light, std::size_t first, std::size_t count,
-                             Batch& batch) {
-    batch.count = 0;
-    for (std::size_t k = first; k < first + count; ++k) {
-        const std::size_t start = k * lanes;
-        PendingRays& rays = batch.rays[batch.count];
-        rays.asked = wide::is_asked(load_three(work.pixels.normal, start), to_light_of(work, light, start));
-        rays.start = start;
-        batch.count += wide::any(rays.asked) ? 1 : 0;
+/// Packs the rays of the batch's pixels that face the light, as the kernel looks them up: off the surface, and inside
+/// the bounds where lights may be outside.
+HWY_INLINE void gather_asked(const TileWork& work, const RowShape& query, const LightRecord& light, Batch& batch) {
+    batch.common_end = light.kind != light_directional && query.clip_to_bounds == 0;
+    const std::size_t numbers_kept = batch.common_end ? 3 : 6;
+    std::size_t rays = 0;
+    for (std::size_t k = 0; k < batch.count; ++k) {
+        const std::size_t start = (batch.first + k) * lanes;
+        const Vec3 position = load_three(work.pixels.position, start);
+        const Vec3 normal = load_three(work.pixels.normal, start);
+        const Mask asked = wide::is_asked(normal, wide::to_light(light, position, query.reach_m));
+        batch.asked[k] = wide::bits_of(asked);
+        Vec3 a = wide::ray_origin(query, position, normal);
+        Vec3 b = wide::light_end(light, position, query.reach_m);
+        if (query.clip_to_bounds != 0) wide::clip_to_bounds(query, a, b);
+        const std::array<Real, 6> numbers{a.x, a.y, a.z, b.x, b.y, b.z};
+        for (std::size_t n = 0; n < numbers_kept; ++n) wide::store_compressed(numbers[n], asked, &batch.ends[n][rays]);
+        rays += static_cast<std::size_t>(std::popcount(batch.asked[k]));
     }
+    batch.rays = rays;
+    if (rays == 0) return;
+    // The last vector's idle lanes repeat its last ray.
+    for (std::size_t n = 0; n < numbers_kept; ++n) wide::store(wide::splat(batch.ends[n][rays - 1]), &batch.ends[n][rays]);
 }
 
-HWY_INLINE void discretize(const TileWork& work, const RowShape& query, const LightRecord& light, PendingRays& rays) {
-    Vec3 a, b;
-    ray_ends(work, query, rays.start, to_light_of(work, light, rays.start), a, b);
-    rays.direction = wide::discretize_direction(query, b - a);
+HWY_INLINE Vec3 load_end(const Batch& batch, std::size_t end, std::size_t start) {
+    return {wide::load(&batch.ends[3 * end][start]), wide::load(&batch.ends[3 * end + 1][start]),
+            wide::load(&batch.ends[3 * end + 2][start])};
 }
 
-HWY_INLINE void locate(const TileWork& work, const RowShape& query, const LightRecord& light, PendingRays& rays) {
-    Vec3 a, b;
-    ray_ends(work, query, rays.start, to_light_of(work, light, rays.start), a, b);
-    wide::locate_spans(query, work.frames, rays.direction, a, b, rays.near, rays.far);
+HWY_INLINE Vec3 load_light_end(const Batch& batch, const LightRecord& light, std::size_t start) {
+    return batch.common_end ? wide::splat(light.position) : load_end(batch, 1, start);
+}
+
+/// Where the answers of the batch's rays lie. Each step runs over all vectors before the next, so that none waits for
+/// its own last step.
+HWY_INLINE void locate(const TileWork& work, const RowShape& query, const LightRecord& light, Batch& batch) {
+    const std::size_t vectors = batch.vectors();
+    for (std::size_t k = 0; k < vectors; ++k) {
+        const Vec3 along_ray = load_light_end(batch, light, k * lanes) - load_end(batch, 0, k * lanes);
+        batch.pending[k].direction = wide::discretize_direction(query, along_ray);
+    }
+    for (std::size_t k = 0; k < vectors; ++k) {
+        PendingRays& rays = batch.pending[k];
+        wide::locate_spans(query, work.frames, rays.direction, load_end(batch, 0, k * lanes),
+                           load_light_end(batch, light, k * lanes), rays.near, rays.far);
+    }
+    for (std::size_t k = 0; k < vectors; ++k) prefetch(work, query, batch.pending[k]);
+}
+
+/// The lowest bits of `packed` at the places of the mask's set bits.
+HWY_INLINE std::uint32_t deposit_bits(std::uint32_t packed, std::uint32_t mask) {
+#ifdef __BMI2__
+    return _pdep_u32(packed, mask);
+#else
+    std::uint32_t spread = 0;
+    for (; mask != 0; mask &= mask - 1, packed >>= 1u)
+        if (packed & 1u) spread |= mask & (~mask + 1u);
+    return spread;
+#endif
 }
 
 HWY_INLINE void add(std::vector<int>& sums, std::size_t start, Mask mask) {
@@ -125,69 +158,96 @@ HWY_INLINE void add(std::vector<int>& sums, std::size_t start, Mask mask) {
     wide::store(Int{wide::hn::LoadU(tag, &sums[start])} + ones, &sums[start]);
 }
 
-void keep_verdicts(const TileWork& work, std::size_t start, std::uint32_t light, Mask blocked) {
-    for (std::uint32_t bits = wide::bits_of(blocked); bits != 0; bits &= bits - 1) {
+void keep_verdicts(const TileWork& work, std::size_t start, std::uint32_t light, std::uint32_t blocked) {
+    for (std::uint32_t bits = blocked; bits != 0; bits &= bits - 1) {
         const std::size_t pixel = work.pixels.pixel[start + static_cast<std::size_t>(__builtin_ctz(bits))];
         work.verdicts->words[pixel * work.verdicts->words_per_pixel + light / 32u] |= 1u << (light % 32u);
     }
 }
 
-template <bool shade>
-HWY_INLINE void look(const TileWork& work, const RowShape& query, std::uint32_t light, const PendingRays& rays,
-                     TileSums& sums) {
-    Mask blocked = wide::span_is_blocked(query, work.rows, rays.near);
-    if (query.subrays == 2) blocked = blocked || wide::span_is_blocked(query, work.rows, rays.far);
-    blocked = blocked && rays.asked;
-    add(sums.asked, rays.start, rays.asked);
-    add(sums.blocked, rays.start, blocked);
-    if constexpr (shade) {
-        const LightRecord& record = work.lights[light];
-        const Real unshadowed = wide::irradiance_per_intensity(record, load_three(work.pixels.normal, rays.start),
-                                                               to_light_of(work, record, rays.start));
-        const Real given = wide::select(rays.asked && !blocked, unshadowed, wide::splat(0.0f));
-        for (int channel = 0; channel < 3; ++channel) {
-            float* sum = &sums.irradiance[channel][rays.start];
-            wide::store(wide::fused(given, wide::splat(record.intensity[channel]), wide::load(sum)), sum);
-        }
-        if (work.verdicts != nullptr) keep_verdicts(work, rays.start, light, blocked);
+/// Looks at the batch's rows. blocked[i / lanes] has the verdict of packed ray i as bit i % lanes.
+HWY_INLINE void look(const TileWork& work, const RowShape& query, const Batch& batch,
+                     std::array<std::uint32_t, batch_vectors + 2>& blocked) {
+    for (std::size_t k = 0; k < batch.vectors(); ++k) {
+        const PendingRays& rays = batch.pending[k];
+        Mask in_the_way = wide::span_is_blocked(query, work.rows, rays.near);
+        if (query.subrays == 2) in_the_way = in_the_way || wide::span_is_blocked(query, work.rows, rays.far);
+        blocked[k] = wide::bits_of(in_the_way);
     }
 }
 
-/// All lights over one tile, batch after batch of its vectors. Each step runs over a whole batch before the next, so
-/// that no vector waits for itself; a batch's rows are on their way from memory while the next one is located.
-/// `words_per_row` is repeated as a constant, so that the loops over words unroll.
-template <bool shade, int words_per_row> void ask_tile(const TileWork& work, TileSums& sums) {
+/// Adds the batch's answers to the sums of its pixels.
+template <bool shade>
+HWY_INLINE void add_answers(const TileWork& work, std::uint32_t light, const Batch& batch,
+                            const std::array<std::uint32_t, batch_vectors + 2>& packed, TileSums& sums) {
+    const LightRecord record = work.lights[light];
+    std::size_t ray = 0;
+    for (std::size_t k = 0; k < batch.count; ++k) {
+        const std::uint32_t asked_bits = batch.asked[k];
+        if (asked_bits == 0) continue;
+        // The next rays' answers, spread back to the lanes that asked.
+        const std::uint64_t two = packed[ray / lanes] | static_cast<std::uint64_t>(packed[ray / lanes + 1]) << lanes;
+        const std::uint32_t blocked_bits = deposit_bits(static_cast<std::uint32_t>(two >> (ray % lanes)), asked_bits);
+        ray += static_cast<std::size_t>(std::popcount(asked_bits));
+        const std::size_t start = (batch.first + k) * lanes;
+        const Mask asked = wide::mask_of(asked_bits), blocked = wide::mask_of(blocked_bits);
+        add(sums.asked, start, asked);
+        add(sums.blocked, start, blocked);
+        if constexpr (shade) {
+            const Vec3 position = load_three(work.pixels.position, start);
+            const Real unshadowed = wide::irradiance_per_intensity(
+                record, load_three(work.pixels.shading_normal, start), wide::to_light(record, position, work.query.reach_m));
+            const Real given = wide::select(asked && !blocked, unshadowed, wide::splat(0.0f));
+            for (int channel = 0; channel < 3; ++channel) {
+                float* sum = &sums.irradiance[channel][start];
+                wide::store(wide::fused(given, wide::splat(record.intensity[channel]), wide::load(sum)), sum);
+            }
+            if (work.verdicts != nullptr) keep_verdicts(work, start, light, blocked_bits);
+        }
+    }
+}
+
+/// All lights over one tile, batch after batch of its vectors; a batch's rows are on their way from memory while the
+/// next one is located. `words_per_row` and `subrays` are repeated as constants, so that the loops over words unroll.
+template <bool shade, int words_per_row, int subrays> void ask_tile(const TileWork& work, TileSums& sums) {
     RowShape query = work.query;
     query.words_per_row = words_per_row;
+    query.subrays = subrays;
     const std::size_t vectors = work.pixels.pixel.size() / lanes;
     std::array<Batch, 2> batches;
+    std::array<std::uint32_t, batch_vectors + 2> blocked{};
     std::size_t current = 0;
     std::uint32_t light_before = 0;
     for (std::uint32_t light = 0; light < work.lights.size(); ++light) {
         const LightRecord record = work.lights[light];
         for (std::size_t first = 0; first < vectors; first += batch_vectors) {
             Batch& now = batches[current];
-            gather_asked(work, record, first, std::min(batch_vectors, vectors - first), now);
-            for (std::size_t k = 0; k < now.count; ++k) discretize(work, query, record, now.rays[k]);
-            for (std::size_t k = 0; k < now.count; ++k) locate(work, query, record, now.rays[k]);
-            for (std::size_t k = 0; k < now.count; ++k) prefetch(work, query, now.rays[k]);
-            const Batch& before = batches[1 - current];
-            for (std::size_t k = 0; k < before.count; ++k) look<shade>(work, query, light_before, before.rays[k], sums);
+            now.first = first;
+            now.count = std::min(batch_vectors, vectors - first);
+            gather_asked(work, query, record, now);
+            locate(work, query, record, now);
             current = 1 - current;
+            look(work, query, batches[current], blocked);
+            add_answers<shade>(work, light_before, batches[current], blocked, sums);
             light_before = light;
         }
     }
-    const Batch& last = batches[1 - current];
-    for (std::size_t k = 0; k < last.count; ++k) look<shade>(work, query, light_before, last.rays[k], sums);
+    look(work, query, batches[1 - current], blocked);
+    add_answers<shade>(work, light_before, batches[1 - current], blocked, sums);
+}
+
+template <bool shade, int subrays> void ask_tile(const TileWork& work, TileSums& sums) {
+    switch (work.query.words_per_row) {
+        case 1: return ask_tile<shade, 1, subrays>(work, sums);
+        case 2: return ask_tile<shade, 2, subrays>(work, sums);
+        case 4: return ask_tile<shade, 4, subrays>(work, sums);
+        default: return ask_tile<shade, 8, subrays>(work, sums);
+    }
 }
 
 template <bool shade> void ask_tile(const TileWork& work, TileSums& sums) {
-    switch (work.query.words_per_row) {
-        case 1: return ask_tile<shade, 1>(work, sums);
-        case 2: return ask_tile<shade, 2>(work, sums);
-        case 4: return ask_tile<shade, 4>(work, sums);
-        default: return ask_tile<shade, 8>(work, sums);
-    }
+    if (work.query.subrays == 1) return ask_tile<shade, 1>(work, sums);
+    return ask_tile<shade, 2>(work, sums);
 }
 
 std::vector<PixelRect> tiles_of(ImageSize size) {

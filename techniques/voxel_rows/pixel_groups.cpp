@@ -10,6 +10,7 @@ void append(PixelGroups& groups, const SurfaceBuffer& surfaces, std::uint32_t pi
     for (int axis = 0; axis < 3; ++axis) {
         groups.position[axis].push_back(surfaces.position[pixel][axis]);
         groups.normal[axis].push_back(surfaces.normal[pixel][axis]);
+        groups.shading_normal[axis].push_back(surfaces.shading_normal[pixel][axis]);
     }
 }
 
@@ -20,6 +21,7 @@ void pad(PixelGroups& groups) {
         for (int axis = 0; axis < 3; ++axis) {
             groups.position[axis].push_back(groups.position[axis].back());
             groups.normal[axis].push_back(0.0f);
+            groups.shading_normal[axis].push_back(0.0f);
         }
     }
 }

@@ -3,28 +3,25 @@
 #include <cmath>
 #include <numbers>
 
-#include <glm/gtc/matrix_inverse.hpp>
-
 namespace sightlines::voxel_rows {
 namespace {
 
-/// Maps the bounds' extent along the unit axis onto [0, N].
-vec4 fitted_axis(vec3 axis, const Box3& bounds, int resolution) {
+/// The unit axis, scaled so that the bounds' extent along it is N voxels.
+vec3 fitted_axis(vec3 axis, const Box3& bounds, int resolution) {
     const vec3 size = glm::max(bounds.size(), vec3(1.0e-3f));
     // A hair of slack keeps points on the bounds inside the grid after rounding.
     const float extent = glm::dot(glm::abs(axis), size) * 1.00001f;
-    const float scale = static_cast<float>(resolution) / extent;
-    return {axis * scale, 0.5f * static_cast<float>(resolution) - glm::dot(axis, bounds.centre()) * scale};
+    return axis * (static_cast<float>(resolution) / extent);
 }
 
 DirectionFrame make_frame(double theta, double phi, const Box3& bounds, int resolution) {
     const vec3 horizontal(std::cos(theta), 0.0, std::sin(theta));
     const vec3 up(0.0f, 1.0f, 0.0f);
     const auto cosine = static_cast<float>(std::cos(phi)), sine = static_cast<float>(std::sin(phi));
-    const vec4 u = fitted_axis(cosine * up + sine * horizontal, bounds, resolution);
-    const vec4 v = fitted_axis(vec3(-horizontal.z, 0.0f, horizontal.x), bounds, resolution);
-    const vec4 w = fitted_axis(cosine * horizontal - sine * up, bounds, resolution);
-    return {vec3(u), u.w, vec3(v), v.w, vec3(w), w.w};
+    const vec3 u = fitted_axis(cosine * up + sine * horizontal, bounds, resolution);
+    const vec3 v = fitted_axis(vec3(-horizontal.z, 0.0f, horizontal.x), bounds, resolution);
+    const vec3 w = fitted_axis(cosine * horizontal - sine * up, bounds, resolution);
+    return {u, v.x, w, v.z};
 }
 
 int next_power_of_two(int value) {
@@ -50,7 +47,7 @@ RowGrid make_grid(const Box3& bounds, int resolution, double angle_step_deg) {
             const std::size_t direction = static_cast<std::size_t>(theta) * grid.angles + phi;
             grid.frames[direction] = frame;
             // 90 degrees on, the rows are the columns of this voxelization: u and w change places (Algorithm 1, line 4).
-            grid.frames[direction + half] = {frame.w, frame.w_offset, frame.v, frame.v_offset, frame.u, frame.u_offset};
+            grid.frames[direction + half] = {frame.w, frame.v_x, frame.u, frame.v_z};
         }
     }
     return grid;
@@ -63,8 +60,8 @@ RowShape make_shape(const RowGrid& grid) {
     shape.words_per_row = grid.words_per_row;
     shape.subrays = 1;
     shape.steps_per_radian = static_cast<float>(grid.angles / std::numbers::pi);
-    shape.lowest = grid.bounds.lowest;
-    shape.highest = grid.bounds.highest;
+    shape.centre = grid.bounds.centre();
+    shape.half_size = 0.5f * grid.bounds.size();
     shape.reach_m = 2.0f * grid.bounds.diagonal();
     return shape;
 }
@@ -96,10 +93,19 @@ std::vector<std::uint8_t> unpack_voxelization(const RowArray& array, int directi
     return occupied;
 }
 
-mat4 world_from_voxels(const DirectionFrame& frame) {
-    const mat4 voxels_from_world = glm::transpose(mat4(vec4(frame.u, frame.u_offset), vec4(frame.v, frame.v_offset),
-                                                       vec4(frame.w, frame.w_offset), vec4(0.0f, 0.0f, 0.0f, 1.0f)));
-    return glm::inverse(voxels_from_world);
+vec3 level_axis(const DirectionFrame& frame) { return {frame.v_x, 0.0f, frame.v_z}; }
+
+vec3 voxel_coordinates(const RowShape& shape, const DirectionFrame& frame, vec3 point) {
+    const vec3 from_centre = point - shape.centre;
+    return {scalar_kernel::along(shape, frame.u, from_centre), scalar_kernel::along_level(shape, frame, from_centre),
+            scalar_kernel::along(shape, frame.w, from_centre)};
+}
+
+mat4 world_from_voxels(const RowGrid& grid, int direction) {
+    const DirectionFrame& frame = grid.frames[static_cast<std::size_t>(direction)];
+    const mat3 world_axes = glm::inverse(glm::transpose(mat3(frame.u, level_axis(frame), frame.w)));
+    const vec3 origin = grid.bounds.centre() - world_axes * vec3(0.5f * static_cast<float>(grid.resolution));
+    return {vec4(world_axes[0], 0.0f), vec4(world_axes[1], 0.0f), vec4(world_axes[2], 0.0f), vec4(origin, 1.0f)};
 }
 
 }  // namespace sightlines::voxel_rows

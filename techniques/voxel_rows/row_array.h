@@ -69,7 +69,13 @@ std::vector<std::uint8_t> unpack_voxelization(const RowArray& array, int directi
 /// The 32-bit words of one row: `row` is row_index(direction, v, w).
 std::span<const std::uint32_t> row_words(const RowArray& array, std::uint32_t row);
 
+/// The axis v of a frame, in voxels per metre.
+vec3 level_axis(const DirectionFrame& frame);
+
+/// The voxel coordinates (u, v, w) of a point in the world.
+vec3 voxel_coordinates(const RowShape& shape, const DirectionFrame& frame, vec3 point);
+
 /// World from the voxel coordinates (u, v, w) in [0, N]^3 of a direction's voxelization.
-mat4 world_from_voxels(const DirectionFrame& frame);
+mat4 world_from_voxels(const RowGrid& grid, int direction);
 
 }  // namespace sightlines::voxel_rows

@@ -25,8 +25,7 @@ vec3 row_corner(const mat4& world_from_voxels, float u, float v, float w) {
 }
 
 /// Voxels first .. last (inclusive) of the row (v, w) as an oblong box in world space.
-TraceGeometry row_box(const char* name, const DirectionFrame& frame, int v, int w, int first, int last) {
-    const mat4 world = world_from_voxels(frame);
+TraceGeometry row_box(const char* name, const mat4& world, int v, int w, int first, int last) {
     const auto u0 = static_cast<float>(first), v0 = static_cast<float>(v), w0 = static_cast<float>(w);
     const auto length = static_cast<float>(std::max(0, last - first + 1));
     return {name, TraceShape::box,
@@ -40,7 +39,7 @@ TraceStep* find_step(std::vector<TraceStep>& steps, std::string_view paper) {
 
 /// What the figures of the steps mean in space: the kernel knows indices, the frame says where they lie.
 void add_geometry(std::vector<TraceStep>& steps, const RowArray& array, const ServedRay& served) {
-    const DirectionFrame& frame = array.grid.frames[static_cast<std::size_t>(served.direction)];
+    const mat4 world = world_from_voxels(array.grid, served.direction);
     const vec3 midpoint = 0.5f * (served.ray.origin + served.ray.target);
     const vec3 half = 0.5f * glm::length(served.ray.target - served.ray.origin) * served.row_direction;
     if (TraceStep* step = find_step(steps, "Algorithm 3, line 2")) {
@@ -48,7 +47,6 @@ void add_geometry(std::vector<TraceStep>& steps, const RowArray& array, const Se
         step->values.push_back({"angular_error", static_cast<double>(served.angular_error_deg), "deg"});
         step->geometry.push_back({"twin", TraceShape::segment, {midpoint - half, midpoint + half}});
         const auto n = static_cast<float>(array.grid.resolution);
-        const mat4 world = world_from_voxels(frame);
         step->geometry.push_back({"voxelization", TraceShape::box,
                                   {row_corner(world, 0.0f, 0.0f, 0.0f), vec3(world[0]) * n, vec3(world[1]) * n,
                                    vec3(world[2]) * n}});
@@ -60,10 +58,10 @@ void add_geometry(std::vector<TraceStep>& steps, const RowArray& array, const Se
         };
         if (step.paper == "Algorithm 3, line 3")
             step.geometry.push_back(
-                row_box("row", frame, whole(step, "v"), whole(step, "w"), 0, array.grid.resolution - 1));
+                row_box("row", world, whole(step, "v"), whole(step, "w"), 0, array.grid.resolution - 1));
         if (step.paper == "Algorithm 3, line 4")
             step.geometry.push_back(
-                row_box("extent", frame, served.v, served.w, whole(step, "span.first"), whole(step, "span.last")));
+                row_box("extent", world, served.v, served.w, whole(step, "span.first"), whole(step, "span.last")));
     }
 }
 
@@ -82,8 +80,9 @@ ServedRay serve(const RowArray& array, const TraceRequest& request) {
     served.direction = kernel::frame_index(query, direction);
     const DirectionFrame& frame = array.grid.frames[static_cast<std::size_t>(served.direction)];
     const vec3 midpoint = 0.5f * (served.ray.origin + served.ray.target);
-    served.v = kernel::voxel_index(query, kernel::along(frame.v, frame.v_offset, midpoint));
-    served.w = kernel::voxel_index(query, kernel::along(frame.w, frame.w_offset, midpoint));
+    const vec3 at_midpoint = voxel_coordinates(query, frame, midpoint);
+    served.v = kernel::voxel_index(query, at_midpoint.y);
+    served.w = kernel::voxel_index(query, at_midpoint.z);
     const kernel::RowSpan span = kernel::locate_span(query, frame, direction, served.ray.origin,
                                                      served.ray.target, query.start_offset, query.light_offset);
     served.first = span.first;

@@ -149,6 +149,7 @@ std::uint32_t place_surfaces(const TileAsker& asker, const PixelGroups& pixels) 
         for (int axis = 0; axis < 3; ++axis) {
             points[k].position[axis] = pixels.position[axis][from];
             points[k].normal[axis] = k == from ? pixels.normal[axis][from] : 0.0f;
+            points[k].shading_normal[axis] = pixels.shading_normal[axis][from];
         }
     }
     return static_cast<std::uint32_t>(padded);

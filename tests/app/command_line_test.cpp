@@ -1,4 +1,6 @@
 // One line a case: what is typed, what the shell gets back, and what stands on standard error or output.
+#include <algorithm>
+#include <ostream>
 #include <regex>
 
 #include <gtest/gtest.h>
@@ -12,14 +14,16 @@ struct Case {
     const char* name;
     std::vector<std::string> arguments;
     int exit_code;
-    const char* errors;   ///< regular expression, to be found in standard error
-    const char* output;   ///< the same for standard output
+    const char* errors;  ///< regular expression, to be found in standard error
+    const char* output;  ///< the same for standard output
 };
+
+void PrintTo(const Case& row, std::ostream* stream) { *stream << row.name; }
 
 /// Flags of the smallest picture that shows anything.
 std::vector<std::string> small(std::vector<std::string> arguments) {
-    for (const char* flag : {"--scene", "cornell", "--size", "64x36", "--lights", "8", "--set", "resolution=32",
-                             "angle_step=6"})
+    for (const char* flag :
+         {"--scene", "cornell", "--size", "64x36", "--lights", "8", "--set", "resolution=32", "angle_step=6"})
         arguments.emplace_back(flag);
     return arguments;
 }
@@ -33,7 +37,11 @@ const Case cases[] = {
     {"HelpOfBench", {"bench", "--help"}, 0, "^$", "Example:\n  sightlines bench"},
     {"HelpOfWorkspace", {"workspace", "--help"}, 0, "^$", "Example:\n  sightlines workspace"},
     {"UnknownCommand", {"rendr"}, 2, "^sightlines: rendr: is not known here \\(did you mean render\\?\\)\n$", "^$"},
-    {"UnknownFlag", {"render", "--sice", "1x1", "--out", "a.png"}, 2, "--sice: is not known.*did you mean --size", "^$"},
+    {"UnknownFlag",
+     {"render", "--sice", "1x1", "--out", "a.png"},
+     2,
+     "--sice: is not known.*did you mean --size",
+     "^$"},
     {"MissingArgument", {"render", "--out"}, 2, "^sightlines: .*--out", "^$"},
     {"MissingOut", {"render", "--scene", "cornell"}, 2, "^sightlines: --out is required", "^$"},
     {"EmptyFlag", {"render", "--scene", "", "--out", "a.png"}, 2, "^sightlines: --scene", "^$"},
@@ -65,6 +73,12 @@ const Case cases[] = {
     {"ParameterOutOfRange", {"render", "--set", "resolution=31", "--out", "a.png"}, 3, "resolution.*32 to 256", "^$"},
     {"ParameterWithoutValue", {"render", "--set", "resolution", "--out", "a.png"}, 3, "not name=value", "^$"},
     {"UnknownCamera", small({"render", "--camera", "nowhere", "--out", "a.png"}), 3, "nowhere", "^$"},
+    {"CameraPose", small({"trace", "--pixel", "32,18", "--camera", "2.78,2.73,-8:2.78,2.73,2.8:40"}), 0, "", "."},
+    {"CameraPoseCutShort", small({"trace", "--pixel", "32,18", "--camera", "1,2,3:4,5"}), 3,
+     "^sightlines: --camera: '1,2,3:4,5' is not x,y,z:tx,ty,tz", "^$"},
+    {"CameraPoseOfWords", small({"trace", "--camera", "1,2,x:4,5,6"}), 3, "--camera: .*a number .*part 3", "^$"},
+    {"CameraPoseWithoutView", small({"trace", "--camera", "1,2,3:1,9,3"}), 3, "--camera: .*straight up", "^$"},
+    {"CameraPoseTooWide", small({"trace", "--camera", "1,2,3:4,5,6:171"}), 3, "--camera: .*1 to 170", "^$"},
     {"NoFolder", {"render", "--out", "no/such/a.png"}, 4, "no/such does not exist", "^$"},
     {"OutIsFolder", {"render", "--out", "."}, 3, "ends in", "^$"},
     {"WrongExtension", {"render", "--out", "a.jpg"}, 3, "a.jpg: .*\\.png or \\.hdr", "^$"},
@@ -72,7 +86,8 @@ const Case cases[] = {
     {"UnwritableReport", {"render", "--out", "a.png", "--report", "no/r.json"}, 4, "no does not exist", "^$"},
     {"PixelOutside", small({"trace", "--pixel", "64,0"}), 3, "--pixel: 64,0 lies outside.*63,35", "^$"},
     {"PixelMalformed", small({"trace", "--pixel", "64"}), 3, "--pixel: '64' is not two", "^$"},
-    {"LightMissing", small({"trace", "--pixel", "32,30", "--light", "8"}), 3, "--light: 8 does not exist .0 to 7", "^$"},
+    {"LightMissing", small({"trace", "--pixel", "32,30", "--light", "8"}), 3, "--light: 8 does not exist .0 to 7",
+     "^$"},
     {"RayMissing", small({"trace", "--pixel", "32,30", "--ray", "99"}), 3, "--ray: '99'", "^$"},
     {"RayWithoutPixel", small({"trace", "--ray", "0"}), 3, "--ray: .*--pixel", "^$"},
     {"UnknownFigure", small({"figure", "voxel-raw", "--out", "f"}), 3, "did you mean voxel-row", "^$"},

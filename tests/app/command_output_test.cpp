@@ -18,8 +18,8 @@ Arguments with(Arguments first, const Arguments& more) {
     return first;
 }
 
-const Arguments small{"--scene", "cornell",        "--size",       "64x36", "--lights", "8", "--set",
-                      "resolution=32", "angle_step=6", "--backend", "cpu"};
+const Arguments small{"--scene", "cornell",       "--size",       "64x36",     "--lights", "8",
+                      "--set",   "resolution=32", "angle_step=6", "--backend", "cpu"};
 
 Json json_of(const fs::path& file) { return Json::parse(text_of(file)); }
 
@@ -31,11 +31,29 @@ TEST(Render, WritesAPictureAndAReportWithEveryKeyOfTheDesign) {
     EXPECT_EQ(files_in(folder), (Arguments{"a.png", "e.png", "r.json"}));
     EXPECT_EQ(read_png(folder / "a.png").size, (ImageSize{64, 36}));
     const Json report = json_of(folder / "r.json");
-    for (const char* pointer :
-         {"/technique", "/scene", "/triangles", "/lights", "/size/1", "/backend", "/device", "/seed",
-          "/parameters/resolution", "/seconds/load", "/seconds/build", "/seconds/render", "/seconds/reference",
-          "/rays/asked", "/rays/traced", "/mrays_per_second", "/memory_bytes/structure", "/memory_bytes/uncompressed",
-          "/memory_bytes/peak", "/error/visibility_percent", "/error/shadow_percent", "/error/rmse", "/error/max_abs"})
+    for (const char* pointer : {"/technique",
+                                "/scene",
+                                "/triangles",
+                                "/lights",
+                                "/size/1",
+                                "/backend",
+                                "/device",
+                                "/seed",
+                                "/parameters/resolution",
+                                "/seconds/load",
+                                "/seconds/build",
+                                "/seconds/render",
+                                "/seconds/reference",
+                                "/rays/asked",
+                                "/rays/traced",
+                                "/mrays_per_second",
+                                "/memory_bytes/structure",
+                                "/memory_bytes/uncompressed",
+                                "/memory_bytes/peak",
+                                "/error/visibility_percent",
+                                "/error/shadow_percent",
+                                "/error/rmse",
+                                "/error/max_abs"})
         EXPECT_TRUE(report.contains(Json::json_pointer(pointer))) << pointer;
     EXPECT_EQ(report["lights"], 8);
     EXPECT_EQ(report["parameters"]["resolution"], 32);
@@ -114,6 +132,14 @@ TEST(Workspace, IsRefusedWithFileAndPointer) {
     EXPECT_EQ(run.errors, "sightlines: s.json: /lights/cuont: is not known (did you mean count?)\n");
 }
 
+TEST(Workspace, LooksForItsSceneBesideItself) {
+    const fs::path folder = fresh_folder();
+    std::ofstream(folder / "s.json") << R"({"scene": "house.glb"})";
+    const ProgramRun run = run_program({"workspace", "s.json", "--render", "b.png"}, folder);
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_NE(run.errors.find("house.glb: no such file"), std::string::npos) << run.errors;
+}
+
 TEST(Workspace, SaysThatThereIsNoWindowYet) {
     const fs::path folder = fresh_folder();
     std::ofstream(folder / "s.json") << "{}";
@@ -147,8 +173,8 @@ TEST(TraceCommand, CountsRaysOnlyOfLightsInFront) {
     const ProgramRun run = run_program(with({"trace", "--pixel", "32,30", "--ray", "1", "--json"}, small), folder);
     ASSERT_EQ(run.exit_code, 0) << run.errors;
     const int light = Json::parse(run.output)["light"];
-    const ProgramRun same = run_program(
-        with({"trace", "--pixel", "32,30", "--light", std::to_string(light), "--json"}, small), folder);
+    const ProgramRun same =
+        run_program(with({"trace", "--pixel", "32,30", "--light", std::to_string(light), "--json"}, small), folder);
     EXPECT_EQ(run.output, same.output);
     EXPECT_GE(light, 1);
 }
@@ -165,8 +191,8 @@ TEST(FigureCommand, WritesEveryFormatIntoANewFolder) {
 
 TEST(BenchCommand, GivesEveryContestantAndTheRatios) {
     const fs::path folder = fresh_folder();
-    const ProgramRun run = run_program(with({"bench", "shadow-rays", "--repetitions", "1", "--json", "--out", "b"}, small),
-                                       folder);
+    const ProgramRun run =
+        run_program(with({"bench", "shadow-rays", "--repetitions", "1", "--json", "--out", "b"}, small), folder);
     ASSERT_EQ(run.exit_code, 0) << run.errors;
     const Json bench = Json::parse(run.output);
     for (const char* key :

@@ -9,7 +9,7 @@
 namespace sightlines {
 
 struct ProgramRun {
-    int exit_code = -1;      ///< negative: ended by that signal
+    int exit_code = -1;  ///< negative: ended by that signal
     std::string output, errors;
 };
 

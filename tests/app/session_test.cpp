@@ -39,7 +39,8 @@ ParameterValues random_parameters(const Technique& technique, Draw& draw) {
 View random_view(Draw& draw) {
     View view;
     if (draw.coin())
-        view.state.camera = OrbitCamera{draw.point(), draw.between(-180, 180), draw.between(-89, 89), draw.between(1, 9)};
+        view.state.camera =
+            OrbitCamera{draw.point(), draw.between(-180, 180), draw.between(-89, 89), draw.between(1, 9)};
     view.state.theme = static_cast<Theme>(draw.whole(0, 2));
     view.state.voxels = draw.coin();
     view.state.labels = draw.coin();
@@ -137,8 +138,7 @@ TEST(Session, LosesWhatAPatchSetsToNull) {
 }
 
 TEST(Session, KeepsEachTechniquesOwnParameters) {
-    const Session session =
-        session_from_json({{"parameters", {{"voxel_rows", {{"resolution", 64}}}}}}, "here");
+    const Session session = session_from_json({{"parameters", {{"voxel_rows", {{"resolution", 64}}}}}}, "here");
     EXPECT_EQ(technique_parameters(session), (ParameterValues{{"resolution", 64.0}}));
     EXPECT_EQ(json_from_session(session)["parameters"]["voxel_rows"]["resolution"], 64);
 }

@@ -16,7 +16,8 @@ TEST(Table, QuotesCsvCellsThatNeedIt) {
 }
 
 TEST(Table, MarksRightAlignedColumnsInMarkdown) {
-    EXPECT_EQ(markdown_from({{"a", "b"}, {Align::left, Align::right}, {{"1", "2"}}}), "| a | b |\n|---|---:|\n| 1 | 2 |\n");
+    EXPECT_EQ(markdown_from({{"a", "b"}, {Align::left, Align::right}, {{"1", "2"}}}),
+              "| a | b |\n|---|---:|\n| 1 | 2 |\n");
 }
 
 TEST(Table, WritesNumbersWithUnits) {

@@ -68,9 +68,12 @@ TEST(ParallelFor, MayBeUsedInsideItself) {
     EXPECT_EQ(visited, 64);
 }
 
-TEST(ThreadCount, IsAsGivenOrTheMachines) {
-    EXPECT_EQ(thread_count(3), 3);
-    EXPECT_GE(thread_count(0), 1);
+TEST(ThreadCount, IsAsGivenButNeverMoreThanTheMachines) {
+    const int processors = thread_count(0);
+    EXPECT_GE(processors, 1);
+    for (int threads = 1; threads <= processors; ++threads) EXPECT_EQ(thread_count(threads), threads);
+    EXPECT_EQ(thread_count(processors + 1), processors);
+    EXPECT_EQ(thread_count(100000), processors);
 }
 
 }  // namespace

@@ -42,12 +42,10 @@ std::vector<std::uint32_t> splat_naively(const RowArray& like, std::span<const F
         for (int theta = 0; theta < shape.angles; ++theta) {
             for (int phi = 0; phi < shape.angles; ++phi) {
                 const DirectionFrame& frame = like.grid.frames[static_cast<std::size_t>(theta * shape.angles + phi)];
-                const auto voxel = [&](vec3 axis, float offset) {
-                    return scalar_kernel::voxel_index(shape, scalar_kernel::along(axis, offset, fragment.position));
-                };
-                const int u = voxel(frame.u, frame.u_offset);
-                const std::size_t row = scalar_kernel::row_index(shape, {theta, phi}, voxel(frame.v, frame.v_offset),
-                                                                 voxel(frame.w, frame.w_offset));
+                const vec3 at = voxel_coordinates(shape, frame, fragment.position);
+                const int u = scalar_kernel::voxel_index(shape, at.x);
+                const std::size_t row = scalar_kernel::row_index(
+                    shape, {theta, phi}, scalar_kernel::voxel_index(shape, at.y), scalar_kernel::voxel_index(shape, at.z));
                 words[row * static_cast<std::size_t>(shape.words_per_row) + static_cast<std::size_t>(u / 32)] |= 1u << (u % 32);
             }
         }

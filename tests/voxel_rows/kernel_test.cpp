@@ -106,19 +106,19 @@ TEST(VoxelRowsKernel, ClipsASegmentToTheBounds) {
 
 TEST(VoxelRowGrid, MapsTheWholeSceneIntoTheVoxelsOfEveryDirection) {
     const RowGrid grid = make_grid(room, 50, 4.0);
+    const RowShape shape = make_shape(grid);
     for (const DirectionFrame& frame : grid.frames) {
         float lowest = 1e9f, highest = -1e9f;
         for (int corner = 0; corner < 8; ++corner) {
             const vec3 point(corner & 1 ? room.highest.x : room.lowest.x, corner & 2 ? room.highest.y : room.lowest.y,
                              corner & 4 ? room.highest.z : room.lowest.z);
-            for (const float at : {kernel::along(frame.u, frame.u_offset, point),
-                                   kernel::along(frame.v, frame.v_offset, point),
-                                   kernel::along(frame.w, frame.w_offset, point)}) {
-                ASSERT_GE(at, 0.0f);
-                ASSERT_LE(at, 50.0f);
+            const vec3 voxel = voxel_coordinates(shape, frame, point);
+            for (int axis = 0; axis < 3; ++axis) {
+                ASSERT_GE(voxel[axis], 0.0f);
+                ASSERT_LE(voxel[axis], 50.0f);
             }
-            lowest = std::min(lowest, kernel::along(frame.u, frame.u_offset, point));
-            highest = std::max(highest, kernel::along(frame.u, frame.u_offset, point));
+            lowest = std::min(lowest, voxel.x);
+            highest = std::max(highest, voxel.x);
         }
         EXPECT_NEAR(lowest, 0.0f, 0.01f);  // fitted, not merely enclosed
         EXPECT_NEAR(highest, 50.0f, 0.01f);
@@ -133,7 +133,7 @@ TEST(VoxelRowGrid, TurnsRowsIntoColumnsNinetyDegreesOn) {
         EXPECT_EQ(frame.u, partner.w);
         EXPECT_EQ(frame.w, partner.u);
         EXPECT_NEAR(glm::dot(glm::normalize(frame.u), glm::normalize(frame.w)), 0.0f, 1e-6f);
-        EXPECT_NEAR(glm::dot(glm::normalize(frame.u), glm::normalize(frame.v)), 0.0f, 1e-6f);
+        EXPECT_NEAR(glm::dot(glm::normalize(frame.u), glm::normalize(level_axis(frame))), 0.0f, 1e-6f);
     }
 }
 
@@ -149,11 +149,11 @@ TEST(VoxelRowGrid, NeverUsesACoarserStepThanAsked) {
 TEST(VoxelRowGrid, WorldFromVoxelsUndoesTheFrame) {
     const RowGrid grid = make_grid(room, 64, 5.0);
     for (std::uint32_t k = 0; k < 200; ++k) {
-        const DirectionFrame& frame = grid.frames[random_u32(1, k, 0) % grid.frames.size()];
+        const auto direction = static_cast<int>(random_u32(1, k, 0) % grid.frames.size());
+        const DirectionFrame& frame = grid.frames[static_cast<std::size_t>(direction)];
         const vec3 point = testing::random_point(room, 5, k);
-        const vec4 voxel(kernel::along(frame.u, frame.u_offset, point), kernel::along(frame.v, frame.v_offset, point),
-                         kernel::along(frame.w, frame.w_offset, point), 1.0f);
-        EXPECT_LT(glm::distance(vec3(world_from_voxels(frame) * voxel), point), 1e-4f);
+        const vec4 voxel(voxel_coordinates(make_shape(grid), frame, point), 1.0f);
+        EXPECT_LT(glm::distance(vec3(world_from_voxels(grid, direction) * voxel), point), 1e-4f);
     }
 }
 
