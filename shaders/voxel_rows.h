@@ -198,21 +198,13 @@ FN Vec3 ray_origin(RowShape shape, Vec3 position, Vec3 normal) {
     return position + normal * splat(shape.normal_offset_m);
 }
 
-/// Where the answer to the ray from a to b lies: in `near` or, where each half of the ray has a row of its own, in both.
-/// `far` is set only then.
-FN void locate_spans(RowShape shape, FrameTable frames, Direction direction, Vec3 a, Vec3 b, INOUT(RowSpan) near,
-                     INOUT(RowSpan) far) {
-    const Frame frame = load_frame(frames, frame_index(shape, direction));
-    NOTE("Algorithm 3, line 2", "The voxelization whose rows run in that direction is chosen.");
-    SHOW(direction.theta);
-    SHOW(direction.phi);
-    if (shape.subrays == 1) {
-        near = locate_span(shape, frame, direction, a, b, shape.start_offset, shape.light_offset);
-    } else {
-        const Vec3 middle = (a + b) * splat(0.5f);
-        near = locate_span(shape, frame, direction, a, middle, shape.start_offset, 0.0f);
-        far = locate_span(shape, frame, direction, middle, b, 0.0f, shape.light_offset);
-    }
+/// Where the answer to part `part` of the ray from a to b lies: to all of it, or, where each half has a row of its own
+/// (subrays is 2), to the half at a (0) or at b (1).
+FN RowSpan locate_part(RowShape shape, Frame frame, Direction direction, Vec3 a, Vec3 b, int part) {
+    if (shape.subrays == 1) return locate_span(shape, frame, direction, a, b, shape.start_offset, shape.light_offset);
+    const Vec3 middle = (a + b) * splat(0.5f);
+    if (part == 0) return locate_span(shape, frame, direction, a, middle, shape.start_offset, 0.0f);
+    return locate_span(shape, frame, direction, middle, b, 0.0f, shape.light_offset);
 }
 
 /// Algorithm 3: whether the scene is in the way between `origin` (of ray_origin) and `target`.
@@ -222,13 +214,16 @@ FN Mask is_blocked(RowShape shape, FrameTable frames, Rows rows, Vec3 origin, Ve
     if (shape.clip_to_bounds != 0) clip_to_bounds(shape, a, b);
     NOTE("Algorithm 4, line 6", "The ray runs from the surface, a little off it, to the light.");
     SHOW_SEGMENT("ray", a, b);
-    RowSpan near;
-    RowSpan far;
-    locate_spans(shape, frames, discretize_direction(shape, b - a), a, b, near, far);
-    const Mask near_blocked = span_is_blocked(shape, rows, near);
-    if (shape.subrays == 1) return near_blocked;
-    const Mask far_blocked = span_is_blocked(shape, rows, far);
-    return near_blocked || far_blocked;
+    const Direction direction = discretize_direction(shape, b - a);
+    NOTE("Algorithm 3, line 2", "The voxelization whose rows run in that direction is chosen.");
+    SHOW(direction.theta);
+    SHOW(direction.phi);
+    const Frame frame = load_frame(frames, frame_index(shape, direction));
+    Mask blocked = span_is_blocked(shape, rows, locate_part(shape, frame, direction, a, b, 0));
+    if (shape.subrays == 2) {
+        blocked = span_is_blocked(shape, rows, locate_part(shape, frame, direction, a, b, 1)) || blocked;
+    }
+    return blocked;
 }
 
 KERNEL_END

@@ -22,7 +22,7 @@ constexpr float snap_angle = pi / 18.0f;       ///< rooms are mostly built along
 constexpr int floor_probes = 9;  ///< one in the middle, the others around it
 constexpr int fan_directions = 32, view_directions = 9;
 constexpr int lines_each_side = 3;
-constexpr float worth_a_step = 0.85f;                      ///< what must be left of the overhang's nearness
+constexpr float worth_a_step = 0.85f;                      ///< what must be left of the nearness of what is in the way
 constexpr float enough_floor = 0.6f, enough_walls = 0.8f;  ///< shares of the lines that must meet fronts
 
 struct Ray {
@@ -152,15 +152,18 @@ struct Stand {
     float length_m = 0.0f;  ///< free ahead
 };
 
-/// On lines side by side along `axis`, all in the air: each is reached from `middle` in a straight line.
+/// On lines side by side along `axis`, the middle one first, all in the air: each is reached from `middle` in a
+/// straight line.
 std::vector<Stand> stands(const Scene& scene, vec3 middle, vec3 axis) {
     const vec3 side = glm::cross(axis, up);
     const std::vector<Ray> sideways = {{middle, side}, {middle, -side}};
     const std::vector<RayEnd> reach = ends_of(scene, sideways);
     std::vector<Ray> rays;
-    for (int i = -lines_each_side; i <= lines_each_side; ++i) {
-        const float share = 0.8f * static_cast<float>(i) / lines_each_side;
-        const vec3 origin = middle + share * reach[i < 0 ? 1 : 0].distance_m * side;
+    for (int i = 0; i <= 2 * lines_each_side; ++i) {
+        const int away = (i + 1) / 2;  // 0, 1, 1, 2, 2 ...: the middle first, then to either side
+        const float share = 0.8f * static_cast<float>(away) / lines_each_side;
+        const Ray& aside = sideways[static_cast<std::size_t>(i % 2)];
+        const vec3 origin = middle + share * reach[static_cast<std::size_t>(i % 2)].distance_m * aside.direction;
         rays.push_back({origin, axis});
         rays.push_back({origin, -axis});
     }
@@ -175,8 +178,8 @@ std::vector<Stand> stands(const Scene& scene, vec3 middle, vec3 axis) {
     return found;
 }
 
-/// The one with the most open view: the harmonic mean of what is free in the directions that a picture shows, which
-/// shuns a pillar before the lens as much as it likes depth.
+/// The first, or one with a clearly more open view: the harmonic mean of what is free in the directions that a picture
+/// shows, which shuns a pillar before the lens as much as it likes depth.
 Stand best_of(const Scene& scene, const std::vector<Stand>& candidates) {
     std::vector<Ray> rays;
     for (const Stand& stand : candidates) {
@@ -192,7 +195,7 @@ Stand best_of(const Scene& scene, const std::vector<Stand>& candidates) {
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         float nearness = 0.0f;
         for (std::size_t i = 0; i < view_directions; ++i) nearness += 1.0f / ends[k * view_directions + i].distance_m;
-        if (k == 0 || nearness < best_nearness) {
+        if (k == 0 || nearness < worth_a_step * best_nearness) {
             best = k;
             best_nearness = nearness;
         }
@@ -204,8 +207,8 @@ Stand best_of(const Scene& scene, const std::vector<Stand>& candidates) {
 std::vector<float> overhang_nearness(const Scene& scene, const std::vector<Stand>& candidates) {
     std::vector<Ray> rays;
     for (const Stand& stand : candidates)
-        for (const float climb : {0.2f, 0.5f})
-            for (const float aside : {-0.45f, -0.15f, 0.15f, 0.45f})
+        for (const float climb : {0.4f, 0.65f})
+            for (const float aside : {-0.3f, -0.1f, 0.1f, 0.3f})
                 rays.push_back({stand.eye, glm::normalize(stand.direction + climb * up +
                                                           aside * glm::cross(stand.direction, up))});
     const std::vector<RayEnd> ends = ends_of(scene, rays);

@@ -31,7 +31,7 @@ using wide::Real;
 using wide::UInt;
 using wide::Vec3;
 
-constexpr int tile_width = 128, tile_height = 64;  ///< pixels; a tile's sums and surfaces stay in the second-level cache
+constexpr int tile_width = 64, tile_height = 64;  ///< pixels; a tile's sums and surfaces stay in the second-level cache
 constexpr float inverse_pi = 0.318309886f;
 constexpr std::size_t batch_vectors = 32;  ///< that go through a step together
 
@@ -49,7 +49,7 @@ struct TileSums {
 /// One vector of rays on its way through the steps.
 struct PendingRays {
     wide::Direction direction;
-    wide::RowSpan near, far;
+    wide::RowSpan spans[2];  ///< [subrays]
 };
 
 /// The rays that a batch of vectors of pixels asks of one light, packed so that no lane is idle.
@@ -79,15 +79,15 @@ HWY_INLINE Vec3 load_three(const std::vector<float> (&axes)[3], std::size_t star
 
 /// The rows of some rays spread over the block of 4 x 4 pixels; those of the others mostly share their cache lines.
 HWY_INLINE void prefetch_rows(const wide::Rows& rows, const UInt& row, int words_per_row) {
-    constexpr std::size_t step = PSTEP;
+    constexpr std::size_t step = lanes == 16 ? 3 : 1;
     const auto* index = reinterpret_cast<const uint*>(&row);
     for (std::size_t lane = 0; lane < lanes; lane += step)
         __builtin_prefetch(rows.v + static_cast<std::size_t>(index[lane]) * words_per_row);
 }
 
 HWY_INLINE void prefetch(const TileWork& work, const RowShape& query, const PendingRays& rays) {
-    prefetch_rows(work.rows, rays.near.row, query.words_per_row);
-    if (query.subrays == 2) prefetch_rows(work.rows, rays.far.row, query.words_per_row);
+    for (int part = 0; part < query.subrays; ++part)
+        prefetch_rows(work.rows, rays.spans[part].row, query.words_per_row);
 }
 
 /// Packs the rays of the batch's pixels that face the light, as the kernel looks them up: off the surface, and inside
@@ -134,8 +134,10 @@ HWY_INLINE void locate(const TileWork& work, const RowShape& query, const LightR
     }
     for (std::size_t k = 0; k < vectors; ++k) {
         PendingRays& rays = batch.pending[k];
-        wide::locate_spans(query, work.frames, rays.direction, load_end(batch, 0, k * lanes),
-                           load_light_end(batch, light, k * lanes), rays.near, rays.far);
+        const Vec3 a = load_end(batch, 0, k * lanes), b = load_light_end(batch, light, k * lanes);
+        const wide::Frame frame = wide::load_frame(work.frames, wide::frame_index(query, rays.direction));
+        for (int part = 0; part < query.subrays; ++part)
+            rays.spans[part] = wide::locate_part(query, frame, rays.direction, a, b, part);
     }
     for (std::size_t k = 0; k < vectors; ++k) prefetch(work, query, batch.pending[k]);
 }
@@ -170,8 +172,8 @@ HWY_INLINE void look(const TileWork& work, const RowShape& query, const Batch& b
                      std::array<std::uint32_t, batch_vectors + 2>& blocked) {
     for (std::size_t k = 0; k < batch.vectors(); ++k) {
         const PendingRays& rays = batch.pending[k];
-        Mask in_the_way = wide::span_is_blocked(query, work.rows, rays.near);
-        if (query.subrays == 2) in_the_way = in_the_way || wide::span_is_blocked(query, work.rows, rays.far);
+        Mask in_the_way = wide::span_is_blocked(query, work.rows, rays.spans[0]);
+        if (query.subrays == 2) in_the_way = in_the_way || wide::span_is_blocked(query, work.rows, rays.spans[1]);
         blocked[k] = wide::bits_of(in_the_way);
     }
 }

@@ -147,6 +147,15 @@ TEST(AutomaticCameras, LookOverATableInTheMiddle) {
     EXPECT_FALSE(holds(table, cameras[0].position));
 }
 
+TEST(AutomaticCameras, StepOutFromUnderAGallery) {
+    Scene scene = box_scene({30, 10, 8}, Faces::inward);  // from (3, -1, 20)
+    for (const float x : {3.0f, 28.5f}) add_box(scene, {{x, 1.6f, 20.0f}, {x + 4.5f, 2.0f, 28.0f}}, Faces::outward);
+    const std::vector<Camera> cameras = automatic_cameras(scene);
+    ASSERT_EQ(cameras.size(), 2u);
+    const float x = cameras[0].position.x;
+    EXPECT_NEAR(std::min(x - 3.0f, 33.0f - x), 4.35f, 0.05f) << "a tenth of 30 m, and a twentieth of the 27 m ahead";
+}
+
 TEST(AutomaticCameras, AreOneCameraForAnEmptyOrFlatScene) {
     expect_only_outside(Scene{});
     Scene flat = box_scene({4, 0, 4}, Faces::inward);
