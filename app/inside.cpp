@@ -41,8 +41,7 @@ VoxelRowPicture voxel_row_picture(const Session& session, const SelectedRay& ray
     picture.resolution = array.grid.resolution;
     picture.occupied =
         std::make_shared<const std::vector<std::uint8_t>>(voxel_rows::unpack_voxelization(array, served.direction));
-    picture.world_from_voxels =
-        voxel_rows::world_from_voxels(array.grid, served.direction);
+    picture.world_from_voxels = voxel_rows::world_from_voxels(array.grid, served.direction);
     picture.v = served.v;
     picture.w = served.w;
     picture.first = served.first;

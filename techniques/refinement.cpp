@@ -34,7 +34,8 @@ void fill_blocks(RenderResult& result, const SurfaceBuffer& surfaces, PixelRect 
     if (stride == 1) return;
     for (int y = rect.y; y < rect.y + rect.height; ++y) {
         for (int x = rect.x; x < rect.x + rect.width; ++x) {
-            const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(surfaces.size.width) + static_cast<std::size_t>(x);
+            const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(surfaces.size.width) +
+                               static_cast<std::size_t>(x);
             if (surfaces.triangle[pixel] == no_triangle) continue;
             const int from_x = std::max(rect.x, x - x % stride), from_y = std::max(rect.y, y - y % stride);
             result.radiance.at(x, y) = result.radiance.at(from_x, from_y);

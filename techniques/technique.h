@@ -40,9 +40,9 @@ struct RenderRequest {
     ParameterValues parameters;
     Backend backend = Backend::cpu;
     std::uint64_t seed = 1;
-    int threads = 0;                 ///< 0: all. Never changes the result
-    bool keep_verdicts = false;      ///< also return every ray's answer
-    bool reverse_tiles = false;      ///< work through the tiles backwards. Never changes the result
+    int threads = 0;             ///< 0: all. Never changes the result
+    bool keep_verdicts = false;  ///< also return every ray's answer
+    bool reverse_tiles = false;  ///< work through the tiles backwards. Never changes the result
     /// Called after each refinement pass over a region, with the picture so far (coarse passes fill whole blocks).
     /// From worker threads, one call at a time. May be empty: then there are no coarse passes.
     std::function<void(const RenderResult& so_far, PixelRect changed)> on_region;
@@ -50,14 +50,14 @@ struct RenderRequest {
 
 /// An image and its companions, all [P].
 struct RenderResult {
-    ImageRgb radiance;               ///< linear; emission + lit by the lights that are seen
-    ImageScalar shadow;              ///< share of the asked rays that are blocked, in [0, 1]
-    Image<std::uint32_t> rays_asked; ///< lights in front of the surface
-    Verdicts verdicts;               ///< empty unless asked for
-    std::uint64_t rays = 0;          ///< sum of rays_asked
-    std::uint64_t rays_traced = 0;   ///< by Embree, for techniques that fall back on it
-    double seconds = 0.0;            ///< wall clock of the technique's own work
-    std::string device;              ///< "CPU, 2 threads, AVX3" or the Vulkan device's name
+    ImageRgb radiance;                ///< linear; emission + lit by the lights that are seen
+    ImageScalar shadow;               ///< share of the asked rays that are blocked, in [0, 1]
+    Image<std::uint32_t> rays_asked;  ///< lights in front of the surface
+    Verdicts verdicts;                ///< empty unless asked for
+    std::uint64_t rays = 0;           ///< sum of rays_asked
+    std::uint64_t rays_traced = 0;    ///< by Embree, for techniques that fall back on it
+    double seconds = 0.0;             ///< wall clock of the technique's own work
+    std::string device;               ///< "CPU, 2 threads, AVX3" or the Vulkan device's name
 };
 
 /// One ray, recorded through the kernel that renders.
@@ -98,11 +98,11 @@ struct BuildRequest {
 
 /// One row of the catalog. Plain functions; no state.
 struct Technique {
-    std::string_view name;           ///< "voxel_rows"
-    std::string_view title;          ///< "Voxel rows"
-    std::string_view paper;          ///< citation
-    std::string_view about;          ///< one sentence
-    std::span<const std::string_view> stages;    ///< the pipeline, in the words of the paper
+    std::string_view name;                     ///< "voxel_rows"
+    std::string_view title;                    ///< "Voxel rows"
+    std::string_view paper;                    ///< citation
+    std::string_view about;                    ///< one sentence
+    std::span<const std::string_view> stages;  ///< the pipeline, in the words of the paper
     std::span<const Parameter> parameters;
     Structure (*build)(const BuildRequest&, Progress&);
     RenderResult (*render)(const Structure&, const RenderRequest&, Progress&);

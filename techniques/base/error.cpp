@@ -22,12 +22,17 @@ std::string one_line(const std::string& where, const std::string& place, const s
 }  // namespace
 
 InputError::InputError(std::string where_, std::string place_, std::string problem_, std::string remedy_)
-    : std::runtime_error(one_line(where_, place_, problem_, remedy_)), where(std::move(where_)),
-      place(std::move(place_)), problem(std::move(problem_)), remedy(std::move(remedy_)) {}
+    : std::runtime_error(one_line(where_, place_, problem_, remedy_)),
+      where(std::move(where_)),
+      place(std::move(place_)),
+      problem(std::move(problem_)),
+      remedy(std::move(remedy_)) {}
 
 EnvironmentError::EnvironmentError(std::string where_, std::string problem_, std::string remedy_)
-    : std::runtime_error(one_line(where_, "", problem_, remedy_)), where(std::move(where_)),
-      problem(std::move(problem_)), remedy(std::move(remedy_)) {}
+    : std::runtime_error(one_line(where_, "", problem_, remedy_)),
+      where(std::move(where_)),
+      problem(std::move(problem_)),
+      remedy(std::move(remedy_)) {}
 
 int edit_distance(const std::string& a, const std::string& b) {
     std::vector<std::vector<int>> distance(a.size() + 1, std::vector<int>(b.size() + 1));

@@ -28,8 +28,9 @@ std::uint64_t proc_bytes(const char* file, const std::string& name) {
 HugeBuffer allocate_huge(std::size_t count) {
     const std::size_t bytes = (count * sizeof(std::uint32_t) + huge_page_bytes - 1) / huge_page_bytes * huge_page_bytes;
     if (bytes > available_memory_bytes())
-        throw EnvironmentError("memory", std::to_string(bytes >> 20u) + " MiB are needed and " +
-                                             std::to_string(available_memory_bytes() >> 20u) + " MiB are free",
+        throw EnvironmentError("memory",
+                               std::to_string(bytes >> 20u) + " MiB are needed and " +
+                                   std::to_string(available_memory_bytes() >> 20u) + " MiB are free",
                                "choose a lower resolution or a coarser angle step");
     void* start = mmap(nullptr, bytes + huge_page_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (start == MAP_FAILED)
@@ -37,7 +38,8 @@ HugeBuffer allocate_huge(std::size_t count) {
                                "choose a lower resolution or a coarser angle step");
     const std::shared_ptr<void> owner(start, [bytes](void* memory) { munmap(memory, bytes + huge_page_bytes); });
     const auto address = reinterpret_cast<std::uintptr_t>(start);
-    auto* aligned = reinterpret_cast<std::uint32_t*>((address + huge_page_bytes - 1) / huge_page_bytes * huge_page_bytes);
+    auto* aligned =
+        reinterpret_cast<std::uint32_t*>((address + huge_page_bytes - 1) / huge_page_bytes * huge_page_bytes);
     madvise(aligned, bytes, MADV_HUGEPAGE);  // a wish; without it the pages are small and the queries slower
     return {{aligned, count}, owner};
 }

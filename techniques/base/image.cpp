@@ -40,7 +40,9 @@ float filmic(float x) {
     return curve(1.6f * x) / curve(1.6f * 8.0f);
 }
 
-std::uint8_t byte_from_unit(float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f); }
+std::uint8_t byte_from_unit(float value) {
+    return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
+}
 
 void append(void* context, void* data, int size) {
     auto& bytes = *static_cast<std::vector<std::uint8_t>*>(context);
@@ -69,14 +71,14 @@ ImageRgba8 shown(const ImageRgb& radiance, const Display& display) {
 vec3 viridis(float t) {
     // Nine knots of matplotlib's viridis (CC0), linear between them.
     static constexpr std::array<std::array<float, 3>, 9> knots{{{0.267f, 0.005f, 0.329f},
-                                                               {0.279f, 0.175f, 0.483f},
-                                                               {0.230f, 0.322f, 0.546f},
-                                                               {0.173f, 0.449f, 0.558f},
-                                                               {0.128f, 0.567f, 0.551f},
-                                                               {0.153f, 0.678f, 0.506f},
-                                                               {0.360f, 0.785f, 0.388f},
-                                                               {0.668f, 0.862f, 0.196f},
-                                                               {0.993f, 0.906f, 0.144f}}};
+                                                                {0.279f, 0.175f, 0.483f},
+                                                                {0.230f, 0.322f, 0.546f},
+                                                                {0.173f, 0.449f, 0.558f},
+                                                                {0.128f, 0.567f, 0.551f},
+                                                                {0.153f, 0.678f, 0.506f},
+                                                                {0.360f, 0.785f, 0.388f},
+                                                                {0.668f, 0.862f, 0.196f},
+                                                                {0.993f, 0.906f, 0.144f}}};
     const float place = std::clamp(t, 0.0f, 1.0f) * 8.0f;
     const auto knot = std::min<std::size_t>(7, static_cast<std::size_t>(place));
     const float blend = place - static_cast<float>(knot);
@@ -121,7 +123,8 @@ void write_image(const std::filesystem::path& file, const ImageRgb& radiance, co
 ImageRgba8 read_png(const std::filesystem::path& file) {
     const std::vector<std::uint8_t> bytes = read_file(file, png_limit_bytes);
     int width = 0, height = 0, channels = 0;
-    stbi_uc* texels = stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 4);
+    stbi_uc* texels =
+        stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 4);
     if (texels == nullptr) throw InputError(file.string(), "", std::string("is not a PNG: ") + stbi_failure_reason());
     ImageRgba8 picture(ImageSize{width, height});
     std::copy_n(reinterpret_cast<const glm::u8vec4*>(texels), picture.pixels.size(), picture.pixels.begin());

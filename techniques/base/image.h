@@ -9,7 +9,8 @@
 namespace sightlines {
 
 /// `pixels[y * width + x]`, y = 0 the top row.
-template <class Pixel> struct Image {
+template <class Pixel>
+struct Image {
     ImageSize size{0, 0};
     std::vector<Pixel> pixels;
 
@@ -17,13 +18,17 @@ template <class Pixel> struct Image {
     explicit Image(ImageSize size_, Pixel fill = Pixel{}) : size(size_), pixels(size_.pixels(), fill) {}
     bool operator==(const Image&) const = default;
     bool empty() const { return pixels.empty(); }
-    Pixel& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)]; }
-    const Pixel& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)]; }
+    Pixel& at(int x, int y) {
+        return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)];
+    }
+    const Pixel& at(int x, int y) const {
+        return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)];
+    }
 };
 
-using ImageRgb = Image<vec3>;                 ///< linear Rec. 709 radiance
+using ImageRgb = Image<vec3>;  ///< linear Rec. 709 radiance
 using ImageScalar = Image<float>;
-using ImageRgba8 = Image<glm::u8vec4>;        ///< sRGB, as shown and saved
+using ImageRgba8 = Image<glm::u8vec4>;  ///< sRGB, as shown and saved
 
 /// How radiance becomes what is seen: exposure in stops, then the tone curve, then the sRGB transfer function.
 struct Display {

@@ -15,15 +15,15 @@ enum class ParameterKind { integer, real, boolean, choice };
 enum class ParameterAffects { structure, picture };
 
 struct Parameter {
-    std::string_view name;                 ///< as in `--set name=value` and JSON
-    std::string_view title;                ///< as on screen
-    std::string_view unit;                 ///< "" for a pure number
+    std::string_view name;   ///< as in `--set name=value` and JSON
+    std::string_view title;  ///< as on screen
+    std::string_view unit;   ///< "" for a pure number
     ParameterKind kind = ParameterKind::real;
     ParameterAffects affects = ParameterAffects::picture;
-    double lowest = 0.0, highest = 1.0;    ///< inclusive; a choice counts from 0
+    double lowest = 0.0, highest = 1.0;  ///< inclusive; a choice counts from 0
     double default_value = 0.0;
-    std::optional<double> paper_value;     ///< where the paper names one
-    std::string_view help;                 ///< one sentence
+    std::optional<double> paper_value;  ///< where the paper names one
+    std::string_view help;              ///< one sentence
     std::span<const std::string_view> choices = {};
 };
 

@@ -18,24 +18,24 @@ enum class Wrap { repeat, mirrored_repeat, clamp };
 
 /// A picture, linear floats after decoding (sRGB pictures are decoded), alpha in w.
 struct Texture {
-    Image<glm::u8vec4> texels;   ///< as stored in the file; colour is sRGB
+    Image<glm::u8vec4> texels;  ///< as stored in the file; colour is sRGB
     Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
 };
 
 /// Where a material looks up a texture: which one, which of the two coordinate sets, and KHR_texture_transform.
 struct TextureLookup {
     std::uint32_t texture = 0;
-    std::uint32_t coordinate_set = 0;   ///< 0 or 1
+    std::uint32_t coordinate_set = 0;  ///< 0 or 1
     vec2 offset{0.0f}, scale{1.0f};
     float rotation_rad = 0.0f;
 };
 
 struct Material {
     std::string name;
-    vec3 base_color{0.8f};              ///< linear Rec. 709, in [0, 1]
+    vec3 base_color{0.8f};  ///< linear Rec. 709, in [0, 1]
     float alpha = 1.0f;
     float metallic = 0.0f, roughness = 1.0f;
-    vec3 emissive{0.0f};                ///< radiance, W/(sr m^2); KHR_materials_emissive_strength included
+    vec3 emissive{0.0f};  ///< radiance, W/(sr m^2); KHR_materials_emissive_strength included
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = true;
@@ -47,11 +47,11 @@ enum class CameraKind { perspective, orthographic };
 struct Camera {
     std::string name = "default";
     CameraKind kind = CameraKind::perspective;
-    vec3 position{0.0f, 0.0f, 3.0f};    ///< m
-    vec3 target{0.0f};                  ///< m; the point that is looked at (and orbited)
+    vec3 position{0.0f, 0.0f, 3.0f};  ///< m
+    vec3 target{0.0f};                ///< m; the point that is looked at (and orbited)
     vec3 up{0.0f, 1.0f, 0.0f};
     float vertical_field_of_view_deg = 50.0f;
-    float orthographic_height_m = 2.0f; ///< full height of the picture, for an orthographic camera
+    float orthographic_height_m = 2.0f;  ///< full height of the picture, for an orthographic camera
 
     bool operator==(const Camera&) const = default;
 };
@@ -72,36 +72,36 @@ struct Light {
 struct Part {
     std::string name;
     std::uint32_t first_triangle = 0, triangle_count = 0;
-    std::uint32_t mesh = 0;             ///< equal for instances of one mesh
-    mat4 world_from_part{1.0f};         ///< identity where the part deforms (skin, morph)
-    bool moves = false;                 ///< world_from_part depends on time
-    bool deforms = false;               ///< the vertices themselves depend on time
+    std::uint32_t mesh = 0;      ///< equal for instances of one mesh
+    mat4 world_from_part{1.0f};  ///< identity where the part deforms (skin, morph)
+    bool moves = false;          ///< world_from_part depends on time
+    bool deforms = false;        ///< the vertices themselves depend on time
 };
 
 /// Immutable once made. Everything is in world space, in metres, at `time_s`.
 struct Scene {
     std::string name;
     double time_s = 0.0;
-    std::vector<vec3> positions;                 ///< [V]
-    std::vector<vec3> normals;                   ///< [V], unit; made from the triangles where a file has none
-    std::vector<vec2> texture_coordinates[2];    ///< [V] or empty
-    std::vector<uvec3> triangles;                ///< [T], each index < V
+    std::vector<vec3> positions;                    ///< [V]
+    std::vector<vec3> normals;                      ///< [V], unit; made from the triangles where a file has none
+    std::vector<vec2> texture_coordinates[2];       ///< [V] or empty
+    std::vector<uvec3> triangles;                   ///< [T], each index < V
     std::vector<std::uint32_t> triangle_materials;  ///< [T], each < materials.size()
-    std::vector<Material> materials;             ///< at least one
+    std::vector<Material> materials;                ///< at least one
     std::vector<Texture> textures;
-    std::vector<Part> parts;                     ///< cover all triangles, in order
-    std::vector<Camera> cameras;                 ///< at least one (framed automatically where a file has none)
-    std::vector<Light> lights;                   ///< may be empty
-    Box3 bounds;                                 ///< of the triangles' vertices; empty without triangles
-    Box3 light_volume;                           ///< where `--lights N` are spread; the bounds unless the scene says better
-    std::vector<std::string> notes;              ///< for standard error: what was left out or approximated
+    std::vector<Part> parts;         ///< cover all triangles, in order
+    std::vector<Camera> cameras;     ///< at least one (framed automatically where a file has none)
+    std::vector<Light> lights;       ///< may be empty
+    Box3 bounds;                     ///< of the triangles' vertices; empty without triangles
+    Box3 light_volume;               ///< where `--lights N` are spread; the bounds unless the scene says better
+    std::vector<std::string> notes;  ///< for standard error: what was left out or approximated
 };
 
 /// A loaded file or a built-in scene: gives the scene at any moment. Cheap to copy; `at` may be called from any thread.
 struct SceneModel {
     std::string name;
-    std::string about;                  ///< one sentence for `list scenes`
-    double duration_s = 0.0;            ///< 0: nothing moves; `at` takes any time and loops
+    std::string about;        ///< one sentence for `list scenes`
+    double duration_s = 0.0;  ///< 0: nothing moves; `at` takes any time and loops
     std::function<Scene(double time_s)> at;
 };
 

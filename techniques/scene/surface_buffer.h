@@ -15,12 +15,12 @@ constexpr std::uint32_t no_triangle = 0xffffffffu;
 /// Where triangle[p] == no_triangle the camera sees the background and the rest is zero.
 struct SurfaceBuffer {
     ImageSize size{0, 0};
-    std::vector<vec3> position;              ///< [P] m, world
-    std::vector<vec3> normal;                ///< [P] unit geometric normal, turned towards the camera
-    std::vector<vec3> shading_normal;        ///< [P] unit interpolated normal, on the same side as `normal`
-    std::vector<vec3> albedo;                ///< [P] linear diffuse reflectance
-    std::vector<vec3> emission;              ///< [P] radiance
-    std::vector<std::uint32_t> triangle;     ///< [P]
+    std::vector<vec3> position;           ///< [P] m, world
+    std::vector<vec3> normal;             ///< [P] unit geometric normal, turned towards the camera
+    std::vector<vec3> shading_normal;     ///< [P] unit interpolated normal, on the same side as `normal`
+    std::vector<vec3> albedo;             ///< [P] linear diffuse reflectance
+    std::vector<vec3> emission;           ///< [P] radiance
+    std::vector<std::uint32_t> triangle;  ///< [P]
 };
 
 /// A half-open rectangle of pixels.
@@ -32,8 +32,8 @@ struct PixelRect {
 
 /// A ray asked by a technique: from a surface point towards a light.
 struct Segment {
-    vec3 origin{0.0f};   ///< m, on the surface
-    vec3 target{0.0f};   ///< m, the light
+    vec3 origin{0.0f};  ///< m, on the surface
+    vec3 target{0.0f};  ///< m, the light
 };
 
 }  // namespace sightlines

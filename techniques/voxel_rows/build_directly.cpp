@@ -40,8 +40,9 @@ void rasterize_along(int axis, const std::array<vec3, 3>& corners, Marks& marks)
     for (int y = begin.y; y <= end.y; ++y) {
         for (int x = begin.x; x <= end.x; ++x) {
             const vec2 centre(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-            const vec3 weights = vec3(edge(flat[1], flat[2], centre), edge(flat[2], flat[0], centre),
-                                      edge(flat[0], flat[1], centre)) / area;
+            const vec3 weights =
+                vec3(edge(flat[1], flat[2], centre), edge(flat[2], flat[0], centre), edge(flat[0], flat[1], centre)) /
+                area;
             if (weights.x < 0.0f || weights.y < 0.0f || weights.z < 0.0f) continue;
             vec3 point;
             point[across] = centre.x;
@@ -76,11 +77,12 @@ RowArray build_directly(const Scene& scene, const BuildOptions& options, Progres
             const int direction = static_cast<int>(theta) * array.grid.angles + phi;
             voxelize(scene, shape, array.grid.frames[static_cast<std::size_t>(direction)], marks);
             for (int v = 0; v < n; ++v) {
-                bits.pack_and_clear(std::span(marks.bytes).subspan(static_cast<std::size_t>(v) * bits.marks(), bits.marks()));
+                bits.pack(std::span(marks.bytes).subspan(static_cast<std::size_t>(v) * bits.marks(), bits.marks()), 1);
                 transposed.transpose_of(bits);
                 store_slice(array, shape, direction, v, bits);
                 store_slice(array, shape, direction + half, v, transposed);
             }
+            std::ranges::fill(marks.bytes, std::uint8_t{0});
             progress.advance();
         }
     });

@@ -22,9 +22,7 @@ struct SlicedFragments {
     std::vector<std::uint32_t> first;  ///< [N + 1], where each slice begins
 };
 
-int voxel_of(float coordinate, int resolution) {
-    return std::clamp(static_cast<int>(coordinate), 0, resolution - 1);
-}
+int voxel_of(float coordinate, int resolution) { return std::clamp(static_cast<int>(coordinate), 0, resolution - 1); }
 
 /// positions: from the centre of the bounds.
 SlicedFragments slice_fragments(std::span<const vec3> positions, const RowShape& shape, const DirectionFrame& frame,
@@ -59,9 +57,16 @@ PlaneMap plane_map(const DirectionFrame& frame, vec3 horizontal) {
     return {frame.u.y, glm::dot(frame.u, horizontal), frame.w.y, glm::dot(frame.w, horizontal)};
 }
 
-/// Marks the slice's fragments in a byte a voxel: bytes[w * stride + u]. Coordinates lie in [0, N] by the fitted box.
-void mark_fragments(const PlaneMap& map, std::span<const float> height, std::span<const float> reach, int resolution,
-                    int stride, std::uint8_t* bytes) {
+/// How many fragments set a voxel: `coverage` of those that a surface across the rows leaves in one voxel's
+/// cross-section. A voxel that surfaces cover by less than half lets most rays pass. At least 1.
+int fragments_needed(const DirectionFrame& frame, double coverage, float cell_m) {
+    const float cross_section_m2 = 1.0f / (glm::length(level_axis(frame)) * glm::length(frame.w));
+    return std::max(1, static_cast<int>(std::lround(coverage * cross_section_m2 / (cell_m * cell_m))));
+}
+
+/// Counts the slice's fragments in a byte a voxel: bytes[w * stride + u]. Coordinates lie in [0, N] by the fitted box.
+void count_fragments(const PlaneMap& map, std::span<const float> height, std::span<const float> reach, int resolution,
+                     int stride, std::uint8_t* bytes) {
     constexpr std::size_t batch = 64;
     alignas(64) std::array<int, batch> place;
     const float half = 0.5f * static_cast<float>(resolution), last = static_cast<float>(resolution) - 0.5f;
@@ -76,12 +81,13 @@ void mark_fragments(const PlaneMap& map, std::span<const float> height, std::spa
             const float w_inside = w < 0.0f ? 0.0f : (w > last ? last : w);
             place[k] = static_cast<int>(w_inside) * stride + static_cast<int>(u_inside);
         }
-        for (std::size_t k = 0; k < count; ++k) bytes[place[k]] = 1;
+        for (std::size_t k = 0; k < count; ++k) ++bytes[place[k]];
     }
 }
 
-/// All directions of one theta: each slice is marked, packed, and stored as rows and, transposed, as its partner's.
-void splat_theta(RowArray& array, const RowShape& shape, std::span<const vec3> positions, int theta) {
+/// All directions of one theta: each slice is counted, packed, and stored as rows and, transposed, as its partner's.
+void splat_theta(RowArray& array, const RowShape& shape, std::span<const vec3> positions, int theta, double coverage,
+                 float cell_m) {
     const RowGrid& grid = array.grid;
     const int n = grid.resolution, half = grid.angles / 2;
     const double angle = theta * std::numbers::pi / grid.angles;
@@ -97,15 +103,30 @@ void splat_theta(RowArray& array, const RowShape& shape, std::span<const vec3> p
         if (count == 0) continue;  // the array starts out clear
         for (int phi = 0; phi < half; ++phi) {
             const int direction = first_direction + phi;
-            const PlaneMap map = plane_map(grid.frames[static_cast<std::size_t>(direction)], horizontal);
-            mark_fragments(map, {&sliced.height[begin], count}, {&sliced.reach[begin], count}, n, bits.stride(),
-                           bytes.data());
-            bits.pack_and_clear(bytes);
+            const DirectionFrame& frame = grid.frames[static_cast<std::size_t>(direction)];
+            const DirectionFrame& partner = grid.frames[static_cast<std::size_t>(direction + half)];
+            count_fragments(plane_map(frame, horizontal), {&sliced.height[begin], count}, {&sliced.reach[begin], count},
+                            n, bits.stride(), bytes.data());
+            bits.pack(bytes, fragments_needed(partner, coverage, cell_m));
             transposed.transpose_of(bits);
+            bits.pack(bytes, fragments_needed(frame, coverage, cell_m));
+            std::fill(bytes.begin(), bytes.end(), std::uint8_t{0});
             store_slice(array, shape, direction, v, bits);
             store_slice(array, shape, direction + half, v, transposed);
         }
     }
+}
+
+/// The fragments in an order that keeps neighbours apart: counting two in the same voxel one after the other would wait
+/// for the first to be stored.
+std::vector<Fragment> scattered(const std::vector<Fragment>& fragments) {
+    constexpr std::size_t apart = 64;
+    std::vector<Fragment> order;
+    order.reserve(fragments.size());
+    const std::size_t step = fragments.size() / apart + 1;
+    for (std::size_t first = 0; first < step; ++first)
+        for (std::size_t k = first; k < fragments.size(); k += step) order.push_back(fragments[k]);
+    return order;
 }
 
 }  // namespace
@@ -121,13 +142,14 @@ RowArray build_from_fragments(const Scene& scene, const BuildOptions& options, P
     const auto start = std::chrono::steady_clock::now();
     std::vector<vec3> positions;
     const FragmentGrid cells = fragment_grid(array.grid, options.samples_per_voxel);
-    for (const Fragment& fragment : surface_fragments(scene, cells, options.threads, progress))
+    for (const Fragment& fragment : scattered(surface_fragments(scene, cells, options.threads, progress)))
         positions.push_back(fragment.position - array.grid.bounds.centre());
     array.fragments = positions.size();
+    const float cell_m = cells.box.size().x / static_cast<float>(cells.cells.x);
     progress.begin("splatting fragments into all directions", array.grid.angles);
     const RowShape shape = make_shape(array.grid);
     parallel_for(array.grid.angles, options.threads, [&](std::int64_t theta) {
-        splat_theta(array, shape, positions, static_cast<int>(theta));
+        splat_theta(array, shape, positions, static_cast<int>(theta), options.coverage, cell_m);
         progress.advance();
     });
     array.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

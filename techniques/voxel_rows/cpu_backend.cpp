@@ -54,12 +54,12 @@ struct PendingRays {
 
 /// The rays that a batch of vectors of pixels asks of one light, packed so that no lane is idle.
 struct Batch {
-    std::size_t first = 0, count = 0;                  ///< the vectors of pixels
-    std::array<std::uint32_t, batch_vectors> asked;    ///< which pixels of each ask, bit by lane
-    std::size_t rays = 0;                              ///< in all
-    bool common_end = false;                           ///< all rays end at the light itself; b is not kept
+    std::size_t first = 0, count = 0;                ///< the vectors of pixels
+    std::array<std::uint32_t, batch_vectors> asked;  ///< which pixels of each ask, bit by lane
+    std::size_t rays = 0;                            ///< in all
+    bool common_end = false;                         ///< all rays end at the light itself; b is not kept
     std::array<std::array<float, (batch_vectors + 1) * lanes>, 6> ends;  ///< x, y, z of a, then of b; packed
-    std::array<PendingRays, batch_vectors> pending;    ///< vectors of packed rays
+    std::array<PendingRays, batch_vectors> pending;                      ///< vectors of packed rays
 
     std::size_t vectors() const { return (rays + lanes - 1) / lanes; }
 };
@@ -112,7 +112,8 @@ HWY_INLINE void gather_asked(const TileWork& work, const RowShape& query, const 
     batch.rays = rays;
     if (rays == 0) return;
     // The last vector's idle lanes repeat its last ray.
-    for (std::size_t n = 0; n < numbers_kept; ++n) wide::store(wide::splat(batch.ends[n][rays - 1]), &batch.ends[n][rays]);
+    for (std::size_t n = 0; n < numbers_kept; ++n)
+        wide::store(wide::splat(batch.ends[n][rays - 1]), &batch.ends[n][rays]);
 }
 
 HWY_INLINE Vec3 load_end(const Batch& batch, std::size_t end, std::size_t start) {
@@ -197,8 +198,9 @@ HWY_INLINE void add_answers(const TileWork& work, std::uint32_t light, const Bat
         add(sums.blocked, start, blocked);
         if constexpr (shade) {
             const Vec3 position = load_three(work.pixels.position, start);
-            const Real unshadowed = wide::irradiance_per_intensity(
-                record, load_three(work.pixels.shading_normal, start), wide::to_light(record, position, work.query.reach_m));
+            const Real unshadowed =
+                wide::irradiance_per_intensity(record, load_three(work.pixels.shading_normal, start),
+                                               wide::to_light(record, position, work.query.reach_m));
             const Real given = wide::select(asked && !blocked, unshadowed, wide::splat(0.0f));
             for (int channel = 0; channel < 3; ++channel) {
                 float* sum = &sums.irradiance[channel][start];
@@ -211,7 +213,8 @@ HWY_INLINE void add_answers(const TileWork& work, std::uint32_t light, const Bat
 
 /// All lights over one tile, batch after batch of its vectors; a batch's rows are on their way from memory while the
 /// next one is located. `words_per_row` and `subrays` are repeated as constants, so that the loops over words unroll.
-template <bool shade, int words_per_row, int subrays> void ask_tile(const TileWork& work, TileSums& sums) {
+template <bool shade, int words_per_row, int subrays>
+void ask_tile(const TileWork& work, TileSums& sums) {
     RowShape query = work.query;
     query.words_per_row = words_per_row;
     query.subrays = subrays;
@@ -238,16 +241,22 @@ template <bool shade, int words_per_row, int subrays> void ask_tile(const TileWo
     add_answers<shade>(work, light_before, batches[1 - current], blocked, sums);
 }
 
-template <bool shade, int subrays> void ask_tile(const TileWork& work, TileSums& sums) {
+template <bool shade, int subrays>
+void ask_tile(const TileWork& work, TileSums& sums) {
     switch (work.query.words_per_row) {
-        case 1: return ask_tile<shade, 1, subrays>(work, sums);
-        case 2: return ask_tile<shade, 2, subrays>(work, sums);
-        case 4: return ask_tile<shade, 4, subrays>(work, sums);
-        default: return ask_tile<shade, 8, subrays>(work, sums);
+        case 1:
+            return ask_tile<shade, 1, subrays>(work, sums);
+        case 2:
+            return ask_tile<shade, 2, subrays>(work, sums);
+        case 4:
+            return ask_tile<shade, 4, subrays>(work, sums);
+        default:
+            return ask_tile<shade, 8, subrays>(work, sums);
     }
 }
 
-template <bool shade> void ask_tile(const TileWork& work, TileSums& sums) {
+template <bool shade>
+void ask_tile(const TileWork& work, TileSums& sums) {
     if (work.query.subrays == 1) return ask_tile<shade, 1>(work, sums);
     return ask_tile<shade, 2>(work, sums);
 }
@@ -361,8 +370,8 @@ RenderResult render_on_cpu(const RowArray& array, const RenderRequest& request, 
     }
     count_rays(result);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    result.device = "CPU, " + std::to_string(thread_count(request.threads)) + " threads, " +
-                    std::to_string(lanes) + " wide";
+    result.device =
+        "CPU, " + std::to_string(thread_count(request.threads)) + " threads, " + std::to_string(lanes) + " wide";
     return result;
 }
 

@@ -14,10 +14,10 @@ constexpr std::size_t group_size = 16;
 
 /// Structure of arrays, padded to whole groups; a padding pixel has a zero normal, so that none of its rays is asked.
 struct PixelGroups {
-    std::vector<std::uint32_t> pixel;     ///< [G * 16], row-major index; no_triangle where padded
-    std::vector<float> position[3];       ///< [G * 16], m
-    std::vector<float> normal[3];         ///< [G * 16], geometric: decides which rays are asked
-    std::vector<float> shading_normal[3]; ///< [G * 16]
+    std::vector<std::uint32_t> pixel;      ///< [G * 16], row-major index; no_triangle where padded
+    std::vector<float> position[3];        ///< [G * 16], m
+    std::vector<float> normal[3];          ///< [G * 16], geometric: decides which rays are asked
+    std::vector<float> shading_normal[3];  ///< [G * 16]
 
     std::size_t groups() const { return pixel.size() / group_size; }
 };

@@ -46,7 +46,8 @@ RowGrid make_grid(const Box3& bounds, int resolution, double angle_step_deg) {
             const DirectionFrame frame = make_frame(theta * step, phi * step, grid.bounds, resolution);
             const std::size_t direction = static_cast<std::size_t>(theta) * grid.angles + phi;
             grid.frames[direction] = frame;
-            // 90 degrees on, the rows are the columns of this voxelization: u and w change places (Algorithm 1, line 4).
+            // 90 degrees on, the rows are the columns of this voxelization: u and w change places (Algorithm 1, line
+            // 4).
             grid.frames[direction + half] = {frame.w, frame.v_x, frame.u, frame.v_z};
         }
     }
@@ -85,7 +86,8 @@ std::vector<std::uint8_t> unpack_voxelization(const RowArray& array, int directi
     std::vector<std::uint8_t> occupied(static_cast<std::size_t>(n) * n * n);
     for (int w = 0; w < n; ++w) {
         for (int v = 0; v < n; ++v) {
-            const auto words = row_words(array, scalar_kernel::row_index(shape, {direction / shape.angles, direction % shape.angles}, v, w));
+            const auto words = row_words(
+                array, scalar_kernel::row_index(shape, {direction / shape.angles, direction % shape.angles}, v, w));
             std::uint8_t* row = &occupied[(static_cast<std::size_t>(w) * n + v) * n];
             for (int u = 0; u < n; ++u) row[u] = (words[static_cast<std::size_t>(u / 32)] >> (u % 32)) & 1u;
         }

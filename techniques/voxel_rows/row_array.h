@@ -15,10 +15,10 @@ namespace sightlines::voxel_rows {
 /// How the array is laid out. `angles` = 2 ceil(90 / step), so that the transposed partner (phi + 90 degrees) is in the
 /// set: a deviation from the paper where the step does not divide 90 (the step used is 180 / angles, never coarser).
 struct RowGrid {
-    int resolution = 128;          ///< voxels along each axis of each voxelization, 32 to 256
-    int angles = 90;               ///< of theta and of phi, in [0, 180) degrees
-    int words_per_row = 4;         ///< 32-bit words: 1, 2, 4 or 8, the next power of two that holds the resolution
-    Box3 bounds;                   ///< of the scene, m
+    int resolution = 128;   ///< voxels along each axis of each voxelization, 32 to 256
+    int angles = 90;        ///< of theta and of phi, in [0, 180) degrees
+    int words_per_row = 4;  ///< 32-bit words: 1, 2, 4 or 8, the next power of two that holds the resolution
+    Box3 bounds;            ///< of the scene, m
     std::vector<DirectionFrame> frames;  ///< [angles * angles], direction = theta * angles + phi
 
     /// Rows in memory: each direction's N x N, padded to whole blocks of row_index().
@@ -30,9 +30,9 @@ struct RowGrid {
 
 struct RowArray {
     RowGrid grid;
-    HugeBuffer words;              ///< [rows() * words_per_row] in the order of row_index()
+    HugeBuffer words;  ///< [rows() * words_per_row] in the order of row_index()
     double build_seconds = 0.0;
-    std::size_t fragments = 0;     ///< surface samples that were splatted (0: built directly)
+    std::size_t fragments = 0;  ///< surface samples that were splatted (0: built directly)
 };
 
 /// What a build depends on.
@@ -40,6 +40,7 @@ struct BuildOptions {
     int resolution = 128;
     double angle_step_deg = 2.0;
     double samples_per_voxel = 2.0;  ///< of the fragment grid, along each axis; Algorithm 6 only
+    double coverage = 0.35;  ///< of a voxel's cross-section that sets it; 0: any fragment does. Algorithm 6 only
     int threads = 0;
     /// Where the rows are to lie; empty: memory of our own.
     std::function<HugeBuffer(std::size_t words)> allocate;

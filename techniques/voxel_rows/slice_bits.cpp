@@ -1,5 +1,6 @@
 #include "techniques/voxel_rows/slice_bits.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -22,18 +23,21 @@ void transpose_64(std::array<std::uint64_t, 64>& rows) {
 
 }  // namespace
 
-void SliceBits::pack_and_clear(std::span<std::uint8_t> bytes) {
+void SliceBits::pack(std::span<const std::uint8_t> bytes, int needed) {
+    // Adding 128 - needed to a byte's lower seven bits carries into its top bit where they are at least `needed`.
+    constexpr std::uint64_t lower_bits = 0x7f7f7f7f7f7f7f7fu, one_each = 0x0101010101010101u;
+    const std::uint64_t carry = one_each * static_cast<std::uint64_t>(128 - std::min(needed, most_needed));
     for (std::size_t word = 0; word < rows.size(); ++word) {
-        std::uint8_t* marks = &bytes[word * 64];
+        const std::uint8_t* marks = &bytes[word * 64];
         std::uint64_t packed = 0;
         for (unsigned group = 0; group < 8; ++group) {
-            // Eight marks of 0 or 1 become eight neighbouring bits by one multiplication (no two products meet).
             std::uint64_t eight = 0;
             std::memcpy(&eight, marks + 8 * group, sizeof eight);
+            eight = ((eight | ((eight & lower_bits) + carry)) >> 7u) & one_each;
+            // Eight bytes of 0 or 1 become eight neighbouring bits by one multiplication (no two products meet).
             packed |= ((eight * 0x0102040810204080u) >> 56u) << (8 * group);
         }
         rows[word] = packed;
-        std::memset(marks, 0, 64);
     }
 }
 
@@ -52,7 +56,8 @@ void SliceBits::transpose_of(const SliceBits& other) {
 void store_slice(RowArray& array, const RowShape& shape, int direction, int v, const SliceBits& bits) {
     const auto length = static_cast<std::size_t>(shape.words_per_row);
     for (int w = 0; w < shape.resolution; ++w) {
-        const std::size_t row = scalar_kernel::row_index(shape, {direction / shape.angles, direction % shape.angles}, v, w);
+        const std::size_t row =
+            scalar_kernel::row_index(shape, {direction / shape.angles, direction % shape.angles}, v, w);
         std::memcpy(&array.words.words[row * length], &bits.rows[static_cast<std::size_t>(w) * bits.blocks],
                     length * sizeof(std::uint32_t));
     }

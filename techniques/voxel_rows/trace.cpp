@@ -28,7 +28,8 @@ vec3 row_corner(const mat4& world_from_voxels, float u, float v, float w) {
 TraceGeometry row_box(const char* name, const mat4& world, int v, int w, int first, int last) {
     const auto u0 = static_cast<float>(first), v0 = static_cast<float>(v), w0 = static_cast<float>(w);
     const auto length = static_cast<float>(std::max(0, last - first + 1));
-    return {name, TraceShape::box,
+    return {name,
+            TraceShape::box,
             {row_corner(world, u0, v0, w0), vec3(world[0]) * length, vec3(world[1]), vec3(world[2])}};
 }
 
@@ -47,9 +48,10 @@ void add_geometry(std::vector<TraceStep>& steps, const RowArray& array, const Se
         step->values.push_back({"angular_error", static_cast<double>(served.angular_error_deg), "deg"});
         step->geometry.push_back({"twin", TraceShape::segment, {midpoint - half, midpoint + half}});
         const auto n = static_cast<float>(array.grid.resolution);
-        step->geometry.push_back({"voxelization", TraceShape::box,
-                                  {row_corner(world, 0.0f, 0.0f, 0.0f), vec3(world[0]) * n, vec3(world[1]) * n,
-                                   vec3(world[2]) * n}});
+        step->geometry.push_back(
+            {"voxelization",
+             TraceShape::box,
+             {row_corner(world, 0.0f, 0.0f, 0.0f), vec3(world[0]) * n, vec3(world[1]) * n, vec3(world[2]) * n}});
     }
     for (TraceStep& step : steps) {
         const auto whole = [](const TraceStep& from, std::string_view name) {
@@ -83,8 +85,8 @@ ServedRay serve(const RowArray& array, const TraceRequest& request) {
     const vec3 at_midpoint = voxel_coordinates(query, frame, midpoint);
     served.v = kernel::voxel_index(query, at_midpoint.y);
     served.w = kernel::voxel_index(query, at_midpoint.z);
-    const kernel::RowSpan span = kernel::locate_span(query, frame, direction, served.ray.origin,
-                                                     served.ray.target, query.start_offset, query.light_offset);
+    const kernel::RowSpan span = kernel::locate_span(query, frame, direction, served.ray.origin, served.ray.target,
+                                                     query.start_offset, query.light_offset);
     served.first = span.first;
     served.last = span.last;
     served.blocked = is_blocked(array, query, asked, request.normal);
@@ -106,8 +108,8 @@ Trace trace(const RowArray& array, const TraceRequest& request) {
     {
         kernel::Recording recording;
         const vec3 origin = kernel::ray_origin(query, trace.ray.origin, request.normal);
-        trace.blocked = kernel::is_blocked(query, {array.grid.frames.data()}, {array.words.words.data()}, origin,
-                                           trace.ray.target);
+        trace.blocked =
+            kernel::is_blocked(query, {array.grid.frames.data()}, {array.words.words.data()}, origin, trace.ray.target);
         trace.steps = std::move(recording.steps);
     }
     add_geometry(trace.steps, array, serve(array, request));

@@ -20,14 +20,14 @@ QueryCount count_blocked(const Structure& structure, const RenderRequest& reques
 
 /// What serves one ray: everything that the view shows of it.
 struct ServedRay {
-    Segment ray;                   ///< as looked up: off the surface, clipped to the bounds
+    Segment ray;  ///< as looked up: off the surface, clipped to the bounds
     int direction = 0, theta = 0, phi = 0;
-    int v = 0, w = 0;              ///< of the row that holds the midpoint
-    int first = 0, last = -1;      ///< voxels kept, inclusive; first > last: nothing to look at
+    int v = 0, w = 0;          ///< of the row that holds the midpoint
+    int first = 0, last = -1;  ///< voxels kept, inclusive; first > last: nothing to look at
     bool blocked = false;
-    vec3 row_direction{0.0f};      ///< unit, world, the way the ray goes
+    vec3 row_direction{0.0f};  ///< unit, world, the way the ray goes
     float angular_error_deg = 0.0f;
-    std::vector<bool> bits;        ///< [N] of the row
+    std::vector<bool> bits;  ///< [N] of the row
 };
 
 /// The ray of the request as the kernel serves it, recorded step by step.

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/voxel_rows/scenes.h"
 #include "techniques/scene/surface_fragments.h"
 #include "techniques/voxel_rows/row_array.h"
 #include "techniques/voxel_rows/slice_bits.h"
 #include "techniques/voxel_rows/voxel_rows.h"
+#include "tests/voxel_rows/scenes.h"
 
 namespace sightlines::voxel_rows {
 namespace {
@@ -44,9 +44,11 @@ std::vector<std::uint32_t> splat_naively(const RowArray& like, std::span<const F
                 const DirectionFrame& frame = like.grid.frames[static_cast<std::size_t>(theta * shape.angles + phi)];
                 const vec3 at = voxel_coordinates(shape, frame, fragment.position);
                 const int u = scalar_kernel::voxel_index(shape, at.x);
-                const std::size_t row = scalar_kernel::row_index(
-                    shape, {theta, phi}, scalar_kernel::voxel_index(shape, at.y), scalar_kernel::voxel_index(shape, at.z));
-                words[row * static_cast<std::size_t>(shape.words_per_row) + static_cast<std::size_t>(u / 32)] |= 1u << (u % 32);
+                const std::size_t row =
+                    scalar_kernel::row_index(shape, {theta, phi}, scalar_kernel::voxel_index(shape, at.y),
+                                             scalar_kernel::voxel_index(shape, at.z));
+                words[row * static_cast<std::size_t>(shape.words_per_row) + static_cast<std::size_t>(u / 32)] |=
+                    1u << (u % 32);
             }
         }
     }
@@ -56,7 +58,8 @@ std::vector<std::uint32_t> splat_naively(const RowArray& like, std::span<const F
 TEST(VoxelRowsBuild, SplatsEachFragmentIntoItsVoxelOfEveryDirection) {
     const Scene scene = testing::scattered_triangles(60, 1);
     for (const int resolution : {32, 48, 64, 100}) {
-        const BuildOptions options = small_build(resolution);
+        BuildOptions options = small_build(resolution);
+        options.coverage = 0.0;
         Progress progress;
         const RowArray array = build_from_fragments(scene, options, progress);
         const std::vector<Fragment> fragments =
@@ -65,7 +68,8 @@ TEST(VoxelRowsBuild, SplatsEachFragmentIntoItsVoxelOfEveryDirection) {
         const std::vector<std::uint32_t> naive = splat_naively(array, fragments);
         const std::size_t all = set_bits(naive);
         ASSERT_GT(all, 100000u);
-        // The fast way rounds coordinates in the plane of theta; a fragment on a voxel's face may fall on its other side.
+        // The fast way rounds coordinates in the plane of theta; a fragment on a voxel's face may fall on its other
+        // side.
         EXPECT_LT(different_bits(array.words.words, naive), all / 20000) << "resolution " << resolution;
     }
 }
@@ -100,7 +104,9 @@ std::size_t lonely_voxels(const std::vector<std::uint8_t>& a, const std::vector<
 TEST(VoxelRowsBuild, AgreesWithTheDirectBuildToTheNeighbouringVoxel) {
     const Scene scene = testing::scattered_triangles(60, 3);
     Progress progress;
-    const RowArray fast = build_from_fragments(scene, small_build(), progress);
+    BuildOptions any_fragment = small_build();
+    any_fragment.coverage = 0.0;
+    const RowArray fast = build_from_fragments(scene, any_fragment, progress);
     const RowArray direct = build_directly(scene, small_build(), progress);
     for (int direction = 0; direction < 900; direction += 37) {
         const auto a = unpack_voxelization(fast, direction), b = unpack_voxelization(direct, direction);
@@ -108,6 +114,20 @@ TEST(VoxelRowsBuild, AgreesWithTheDirectBuildToTheNeighbouringVoxel) {
         // The fragments reach into sharp corners that hold no pixel centre of the direct build.
         const auto set = static_cast<std::size_t>(std::count(a.begin(), a.end(), 1));
         EXPECT_LT(lonely_voxels(a, b, 48), set / 10) << "direction " << direction;
+    }
+}
+
+TEST(VoxelRowsBuild, SetsFewerVoxelsTheMoreOfThemMustBeCovered) {
+    const Scene scene = testing::scattered_triangles(200, 2);
+    std::size_t before = ~std::size_t{0};
+    for (const double coverage : {0.0, 0.7, 1.0}) {
+        BuildOptions options = small_build();
+        options.coverage = coverage;
+        Progress progress;
+        const std::size_t set = set_bits(build_from_fragments(scene, options, progress).words.words);
+        EXPECT_GT(set, 0u);
+        EXPECT_LT(set, before);
+        before = set;
     }
 }
 
@@ -151,20 +171,21 @@ TEST(VoxelRowsBuild, MakesAClearArrayOfASceneWithoutTriangles) {
     EXPECT_EQ(set_bits(array.words.words), 0u);
 }
 
-TEST(SliceBits, PacksMarksAndTransposes) {
+TEST(SliceBits, PacksCountsOfAtLeastWhatIsNeededAndTransposes) {
     for (const int n : {32, 64, 100, 128, 256}) {
         SliceBits bits(n), transposed(n);
         std::vector<std::uint8_t> marks(bits.marks());
-        for (std::size_t k = 0; k < marks.size(); ++k) marks[k] = random_u32(3, static_cast<std::uint32_t>(k), 0) % 3 == 0;
-        const std::vector<std::uint8_t> before = marks;
-        bits.pack_and_clear(marks);
+        for (std::size_t k = 0; k < marks.size(); ++k)
+            marks[k] = static_cast<std::uint8_t>(random_u32(3, static_cast<std::uint32_t>(k), 0));
+        const int needed = 1 + static_cast<int>(random_u32(4, static_cast<std::uint32_t>(n), 0) % 128u);
+        bits.pack(marks, needed);
         transposed.transpose_of(bits);
         const auto stride = static_cast<std::size_t>(bits.stride()), blocks = static_cast<std::size_t>(bits.blocks);
         for (std::size_t w = 0; w < stride; ++w) {
             for (std::size_t u = 0; u < stride; ++u) {
-                ASSERT_EQ((bits.rows[w * blocks + u / 64] >> (u % 64)) & 1u, before[w * stride + u]);
-                ASSERT_EQ((transposed.rows[u * blocks + w / 64] >> (w % 64)) & 1u, before[w * stride + u]);
-                ASSERT_EQ(marks[w * stride + u], 0);
+                ASSERT_EQ((bits.rows[w * blocks + u / 64] >> (u % 64)) & 1u, marks[w * stride + u] >= needed ? 1u : 0u);
+                ASSERT_EQ((transposed.rows[u * blocks + w / 64] >> (w % 64)) & 1u,
+                          marks[w * stride + u] >= needed ? 1u : 0u);
             }
         }
     }

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/voxel_rows/scenes.h"
 #include "techniques/voxel_rows/row_array.h"
+#include "tests/voxel_rows/scenes.h"
 
 namespace sightlines::voxel_rows {
 namespace {
@@ -25,7 +25,8 @@ TEST(VoxelRowsKernel, RoundsEveryLineToADirectionWithinTheDiagonalOfHalfAStep) {
             const kernel::Direction direction = kernel::discretize_direction(shape, line);
             ASSERT_TRUE(direction.theta >= 0 && direction.theta < grid.angles);
             ASSERT_TRUE(direction.phi >= 0 && direction.phi < grid.angles);
-            const vec3 axis = glm::normalize(grid.frames[static_cast<std::size_t>(kernel::frame_index(shape, direction))].u);
+            const vec3 axis =
+                glm::normalize(grid.frames[static_cast<std::size_t>(kernel::frame_index(shape, direction))].u);
             const double error = std::atan2(glm::length(glm::cross(glm::dvec3(line), glm::dvec3(axis))),
                                             std::abs(glm::dot(glm::dvec3(line), glm::dvec3(axis))));
             ASSERT_LE(error, half_step * std::numbers::sqrt2 + 1e-4) << line.x << ' ' << line.y << ' ' << line.z;
@@ -53,7 +54,8 @@ TEST(VoxelRowsKernel, DiscretizesTheAxesAndNoLengthWithoutLeavingTheTable) {
         const int index = kernel::frame_index(shape, kernel::discretize_direction(shape, line));
         ASSERT_TRUE(index >= 0 && index < grid.angles * grid.angles);
         if (glm::length(line) < 0.5f) continue;
-        EXPECT_NEAR(std::abs(glm::dot(glm::normalize(grid.frames[static_cast<std::size_t>(index)].u), line)), 1.0, 1e-5);
+        EXPECT_NEAR(std::abs(glm::dot(glm::normalize(grid.frames[static_cast<std::size_t>(index)].u), line)), 1.0,
+                    1e-5);
     }
 }
 
@@ -129,7 +131,8 @@ TEST(VoxelRowGrid, TurnsRowsIntoColumnsNinetyDegreesOn) {
     const RowGrid grid = make_grid(room, 32, 3.0);
     for (int theta = 0; theta < grid.angles; ++theta) {
         const DirectionFrame& frame = grid.frames[static_cast<std::size_t>(theta * grid.angles + 5)];
-        const DirectionFrame& partner = grid.frames[static_cast<std::size_t>(theta * grid.angles + 5 + grid.angles / 2)];
+        const DirectionFrame& partner =
+            grid.frames[static_cast<std::size_t>(theta * grid.angles + 5 + grid.angles / 2)];
         EXPECT_EQ(frame.u, partner.w);
         EXPECT_EQ(frame.w, partner.u);
         EXPECT_NEAR(glm::dot(glm::normalize(frame.u), glm::normalize(frame.w)), 0.0f, 1e-6f);

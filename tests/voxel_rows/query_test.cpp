@@ -24,7 +24,8 @@ SurfaceBuffer random_surfaces(const Box3& box, ImageSize size) {
     for (std::uint32_t k = 0; k < size.pixels(); ++k) {
         const bool background = random_unit(11, k, 9) < 0.1f;
         surfaces.position.push_back(background ? vec3(0.0f) : testing::random_point(box, 11, k));
-        surfaces.normal.push_back(background ? vec3(0.0f) : sphere_direction(random_unit(12, k, 0), random_unit(12, k, 1)));
+        surfaces.normal.push_back(background ? vec3(0.0f)
+                                             : sphere_direction(random_unit(12, k, 0), random_unit(12, k, 1)));
         surfaces.shading_normal.push_back(surfaces.normal.back());
         surfaces.albedo.push_back(background ? vec3(0.0f) : vec3(0.5f));
         surfaces.emission.push_back(vec3(0.0f));
@@ -89,7 +90,8 @@ TEST(VoxelRowsQuery, LeavesOutTheVoxelsOfTheOffsets) {
     const RowArray array = small_array(scene);
     const Segment through{vec3(-0.3f, 0.0f, 0.0f), vec3(1.5f, 0.0f, 0.0f)};  // voxels are about 0.06 m wide
     const auto blocked = [&](double start, double light, Segment ray) {
-        const RowShape query = make_query(array, {{"start_offset", start}, {"light_offset", light}, {"normal_offset", 0.0}}, {});
+        const RowShape query =
+            make_query(array, {{"start_offset", start}, {"light_offset", light}, {"normal_offset", 0.0}}, {});
         return is_blocked(array, query, ray, vec3(1, 0, 0));
     };
     EXPECT_TRUE(blocked(0.0, 0.0, through));
@@ -112,11 +114,15 @@ TEST(VoxelRowsQuery, LooksUpARowForEachHalfWhereTwoAreAsked) {
         const vec3 a = ray.origin + normal * two.normal_offset_m, middle = 0.5f * (a + ray.target);
         // Each half by hand, in the direction of the whole ray.
         const scalar_kernel::Direction direction = scalar_kernel::discretize_direction(two, ray.target - a);
-        const DirectionFrame& frame = array.grid.frames[static_cast<std::size_t>(scalar_kernel::frame_index(two, direction))];
+        const DirectionFrame& frame =
+            array.grid.frames[static_cast<std::size_t>(scalar_kernel::frame_index(two, direction))];
         const scalar_kernel::Rows rows{array.words.words.data()};
         const bool halves =
-            scalar_kernel::span_is_blocked(two, rows, scalar_kernel::locate_span(two, frame, direction, a, middle, two.start_offset, 0.0f)) ||
-            scalar_kernel::span_is_blocked(two, rows, scalar_kernel::locate_span(two, frame, direction, middle, ray.target, 0.0f, two.light_offset));
+            scalar_kernel::span_is_blocked(
+                two, rows, scalar_kernel::locate_span(two, frame, direction, a, middle, two.start_offset, 0.0f)) ||
+            scalar_kernel::span_is_blocked(
+                two, rows,
+                scalar_kernel::locate_span(two, frame, direction, middle, ray.target, 0.0f, two.light_offset));
         ASSERT_EQ(is_blocked(array, two, ray, normal), halves);
         different += halves != is_blocked(array, one, ray, normal);
     }
@@ -194,7 +200,7 @@ TEST(VoxelRowsPicture, LightsASurfaceInTheOpenAsTheInverseSquareLawSays) {
     picture.surfaces = random_surfaces(picture.scene.bounds, {1, 1});
     picture.surfaces.triangle[0] = 0;
     picture.surfaces.position[0] = vec3(1.0f, -1.0f, 0.0f);
-    picture.surfaces.normal[0] = vec3(0.0f, 1.0f, 0.0f);
+    picture.surfaces.normal[0] = picture.surfaces.shading_normal[0] = vec3(0.0f, 1.0f, 0.0f);
     picture.surfaces.albedo[0] = vec3(0.5f, 0.25f, 1.0f);
     picture.lights = {Light{.position = vec3(1.0f, 1.0f, 0.0f), .intensity = vec3(8.0f)}};
     const vec3 radiance = picture.render(picture.request()).radiance.pixels[0];

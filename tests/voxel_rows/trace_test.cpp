@@ -33,7 +33,8 @@ struct Fixture {
     }
 };
 
-template <class T> T value_of(const Trace& trace, std::string_view paper, std::string_view name) {
+template <class T>
+T value_of(const Trace& trace, std::string_view paper, std::string_view name) {
     for (const TraceStep& step : trace.steps)
         for (const TraceValue& value : step.values)
             if (step.paper == paper && value.name == name) return std::get<T>(value.value);
