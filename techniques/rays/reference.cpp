@@ -8,6 +8,7 @@
 #include "techniques/base/parallel.h"
 #include "techniques/rays/light_records.h"
 #include "techniques/rays/shadow_blocks.h"
+#include "techniques/refinement.h"
 
 namespace sightlines {
 namespace {
@@ -81,24 +82,12 @@ struct ReferenceRender {
     }
 };
 
-RenderResult empty_result(const RenderRequest& request) {
-    const ImageSize size = request.surfaces->size;
-    RenderResult result;
-    result.radiance = ImageRgb(size);
-    result.radiance.pixels = request.surfaces->emission;
-    result.shadow = ImageScalar(size, 0.0f);
-    result.rays_asked = Image<std::uint32_t>(size, 0u);
-    result.verdicts.words_per_pixel = static_cast<std::uint32_t>((request.lights.size() + 31u) / 32u);
-    if (request.keep_verdicts) result.verdicts.words.assign(size.pixels() * result.verdicts.words_per_pixel, 0u);
-    return result;
-}
-
 }  // namespace
 
 RenderResult render_reference(const EmbreeScene& embree, const RenderRequest& request, Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     const ImageSize size = request.surfaces->size;
-    RenderResult result = empty_result(request);
+    RenderResult result = blank_result(request);
     const ReferenceRender render{embree, request, light_records(request.lights), result};
     const int columns = (size.width + region_size - 1) / region_size;
     const int rows = (size.height + region_size - 1) / region_size;
@@ -123,7 +112,7 @@ RenderResult render_reference(const EmbreeScene& embree, const RenderRequest& re
             request.on_region(result, rect);
         }
     });
-    for (const std::uint32_t asked : result.rays_asked.pixels) result.rays += asked;
+    count_rays(result);
     result.rays_traced = result.rays;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.device = "CPU, " + std::to_string(thread_count(request.threads)) + " threads, Embree " + embree_release();
