@@ -117,6 +117,13 @@ void splat_theta(RowArray& array, const RowShape& shape, std::span<const vec3> p
     }
 }
 
+/// The edge of the cubes in which the surface is sampled.
+float fragment_cell_m(const RowGrid& grid, double samples_per_voxel) {
+    const vec3 size = grid.bounds.size();
+    const float longest_m = std::max({size.x, size.y, size.z, 1.0e-3f});
+    return longest_m / static_cast<float>(grid.resolution * samples_per_voxel);
+}
+
 /// The fragments in an order that keeps neighbours apart: counting two in the same voxel one after the other would wait
 /// for the first to be stored.
 std::vector<Fragment> scattered(const std::vector<Fragment>& fragments) {
@@ -132,9 +139,8 @@ std::vector<Fragment> scattered(const std::vector<Fragment>& fragments) {
 }  // namespace
 
 FragmentGrid fragment_grid(const RowGrid& grid, double samples_per_voxel) {
-    const vec3 size = grid.bounds.size();
-    const float cell_m = std::max({size.x, size.y, size.z}) / static_cast<float>(grid.resolution * samples_per_voxel);
-    return {grid.bounds, glm::max(ivec3(glm::ceil(size / cell_m)), ivec3(1))};
+    const vec3 cells = glm::ceil(grid.bounds.size() / fragment_cell_m(grid, samples_per_voxel));
+    return {grid.bounds, glm::max(ivec3(cells), ivec3(1))};
 }
 
 RowArray build_from_fragments(const Scene& scene, const BuildOptions& options, Progress& progress) {
@@ -145,7 +151,7 @@ RowArray build_from_fragments(const Scene& scene, const BuildOptions& options, P
     for (const Fragment& fragment : scattered(surface_fragments(scene, cells, options.threads, progress)))
         positions.push_back(fragment.position - array.grid.bounds.centre());
     array.fragments = positions.size();
-    const float cell_m = cells.box.size().x / static_cast<float>(cells.cells.x);
+    const float cell_m = fragment_cell_m(array.grid, options.samples_per_voxel);
     progress.begin("splatting fragments into all directions", array.grid.angles);
     const RowShape shape = make_shape(array.grid);
     parallel_for(array.grid.angles, options.threads, [&](std::int64_t theta) {

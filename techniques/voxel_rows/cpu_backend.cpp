@@ -257,6 +257,7 @@ void ask_tile(const TileWork& work, TileSums& sums) {
 
 template <bool shade>
 void ask_tile(const TileWork& work, TileSums& sums) {
+    if (work.lights.empty()) return;
     if (work.query.subrays == 1) return ask_tile<shade, 1>(work, sums);
     return ask_tile<shade, 2>(work, sums);
 }

@@ -150,6 +150,27 @@ TEST(VoxelRowsBuild, LeavesNoHoleInAWallSeenFromAnyDirection) {
     }
 }
 
+TEST(VoxelRowsBuild, KeepsAWallThatHasNoThicknessAlongAnAxis) {
+    for (int thin = 0; thin < 3; ++thin) {
+        Scene scene;
+        const auto corner = [thin](float a, float b) {
+            vec3 point(0.0f);
+            point[(thin + 1) % 3] = a;
+            point[(thin + 2) % 3] = b;
+            return point;
+        };
+        testing::add_triangle(scene, corner(-2, -2), corner(2, -2), corner(2, 2));
+        testing::add_triangle(scene, corner(-2, -2), corner(2, 2), corner(-2, 2));
+        const Scene wall = testing::finished(scene);
+        Progress progress;
+        const RowArray array = build_from_fragments(wall, small_build(), progress);
+        for (int direction = 0; direction < 900; direction += 7) {
+            const auto occupied = unpack_voxelization(array, direction);
+            EXPECT_NE(std::count(occupied.begin(), occupied.end(), 1), 0) << "thin " << thin << ' ' << direction;
+        }
+    }
+}
+
 TEST(VoxelRowsBuild, StopsWhenCancelled) {
     Progress progress;
     progress.cancel();

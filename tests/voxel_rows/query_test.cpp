@@ -210,6 +210,14 @@ TEST(VoxelRowsPicture, LightsASurfaceInTheOpenAsTheInverseSquareLawSays) {
     EXPECT_NEAR(radiance.b, 1.0f * irradiance / 3.14159265f, 1e-5f);
 }
 
+TEST(VoxelRowsPicture, IsDarkWithoutLights) {
+    Picture picture;
+    picture.lights.clear();
+    const RenderResult result = picture.render(picture.request());
+    EXPECT_EQ(result.rays, 0u);
+    for (const vec3& radiance : result.radiance.pixels) ASSERT_EQ(radiance, vec3(0.0f));
+}
+
 TEST(VoxelRowsPicture, StopsWhenCancelled) {
     const Picture picture;
     Progress progress;
