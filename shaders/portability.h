@@ -5,7 +5,7 @@
 //   splat(x)                         a uniform value as one for each ray
 //   select(mask, a, b)               a where the mask holds, else b; both sides are evaluated
 //   fused(a, b, c)                   a * b + c; rounded once where the machine can
-//   to_int(r) to_real(i) to_uint(i)  truncating, exact, reinterpreting
+//   to_int(r) to_uint(i)            truncating, reinterpreting
 //   shift_left(x, n) shift_right(x, n)   zero where n >= 32
 //   NOTE(paper, sentence) SHOW SHOW_BITS SHOW_POINT SHOW_SEGMENT   recorded in recording C++, nothing elsewhere
 // GLSL has no variadic macros, hence one SHOW for each value.
@@ -72,7 +72,6 @@ template <class T> T splat(T x) { return x; }
 inline Real select(Mask mask, Real a, Real b) { return mask ? a : b; }
 inline Int select(Mask mask, Int a, Int b) { return mask ? a : b; }
 inline UInt select(Mask mask, UInt a, UInt b) { return mask ? a : b; }
-inline Real floor(Real x) { return std::floor(x); }
 inline Real sqrt(Real x) { return std::sqrt(x); }
 inline Real abs(Real x) { return std::fabs(x); }
 // As the wide compilation's instructions: the second operand where the comparison is false.
@@ -81,7 +80,6 @@ inline Real max(Real a, Real b) { return a > b ? a : b; }
 inline Int min(Int a, Int b) { return a < b ? a : b; }
 inline Int max(Int a, Int b) { return a > b ? a : b; }
 inline Int to_int(Real x) { return static_cast<Int>(x); }
-inline Real to_real(Int x) { return static_cast<Real>(x); }
 inline UInt to_uint(Int x) { return static_cast<UInt>(x); }
 inline UInt shift_left(UInt x, UInt n) { return n < 32u ? x << n : 0u; }
 inline UInt shift_right(UInt x, UInt n) { return n < 32u ? x >> n : 0u; }
@@ -114,7 +112,6 @@ KERNEL_END
 #define select(mask, a, b) ((mask) ? (a) : (b))
 #define fused(a, b, c) fma(a, b, c)
 #define to_int(x) int(x)
-#define to_real(x) float(x)
 #define to_uint(x) uint(x)
 
 FN UInt shift_left(UInt x, UInt n) { return n < 32u ? x << n : 0u; }

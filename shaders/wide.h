@@ -57,7 +57,6 @@ HWY_INLINE Real operator*(Real a, Real b) { return {hn::Mul(a.v, b.v)}; }
 HWY_INLINE Real operator/(Real a, Real b) { return {hn::Div(a.v, b.v)}; }
 HWY_INLINE Real operator-(Real a) { return {hn::Neg(a.v)}; }
 HWY_INLINE Real fused(Real a, Real b, Real c) { return {hn::MulAdd(a.v, b.v, c.v)}; }
-HWY_INLINE Real floor(Real x) { return {hn::Floor(x.v)}; }
 HWY_INLINE Real sqrt(Real x) { return {hn::Sqrt(x.v)}; }
 HWY_INLINE Real abs(Real x) { return {hn::Abs(x.v)}; }
 
@@ -95,7 +94,6 @@ HWY_INLINE Int to_int(Real x) { return {hn::Vec<IntTag>{_mm512_cvttps_epi32(x.v.
 #else
 HWY_INLINE Int to_int(Real x) { return {hn::ConvertTo(IntTag(), x.v)}; }
 #endif
-HWY_INLINE Real to_real(Int x) { return {hn::ConvertTo(RealTag(), x.v)}; }
 HWY_INLINE UInt to_uint(Int x) { return {hn::BitCast(UIntTag(), x.v)}; }
 
 #if HWY_TARGET <= HWY_AVX2
