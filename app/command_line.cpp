@@ -88,17 +88,19 @@ ExitCode run(const Command& command) {
 
 ExitCode run_command_line(int argc, const char* const* argv) {
     CLI::App app("Sightlines: how renderers decide what can see what");
-    Command chosen = main_job();
+    Command chosen;
     app.require_subcommand(0, 1);
     app.footer(
-        "Without a command: renders the built-in atrium, a view inside and a ray's trace into out/.\n\n"
+        "Without a command: opens the window.\n\n"
         "Example:\n  sightlines render --scene atrium --lights 1024 --size 640x360 --out atrium.png");
+    add_window_flags(app, chosen);
     add_list_command(app, chosen);
     add_render_command(app, chosen);
     add_trace_command(app, chosen);
     add_figure_command(app, chosen);
     add_bench_command(app, chosen);
     add_workspace_command(app, chosen);
+    add_sample_command(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked_for_help) {

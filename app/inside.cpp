@@ -7,6 +7,31 @@
 #include "techniques/voxel_rows/voxel_rows.h"
 
 namespace sightlines {
+namespace {
+
+constexpr std::size_t most_unpacked = 4;
+
+std::shared_ptr<const std::vector<std::uint8_t>> occupied_voxels(UnpackedVoxels& unpacked,
+                                                                 const Shared<BuiltStructure>& structure,
+                                                                 int direction) {
+    auto& latest = unpacked.latest;
+    std::erase_if(latest, [](const UnpackedVoxels::Direction& kept) { return kept.structure.expired(); });
+    const auto found = std::ranges::find_if(latest, [&](const UnpackedVoxels::Direction& kept) {
+        return kept.direction == direction && kept.structure.lock() == structure;
+    });
+    if (found != latest.end()) {
+        std::rotate(latest.begin(), found, found + 1);
+        return latest.front().occupied;
+    }
+    if (latest.size() == most_unpacked) latest.pop_back();
+    const voxel_rows::RowArray& array = voxel_rows::row_array(structure->value.structure);
+    auto occupied =
+        std::make_shared<const std::vector<std::uint8_t>>(voxel_rows::unpack_voxelization(array, direction));
+    latest.insert(latest.begin(), {structure, direction, occupied});
+    return occupied;
+}
+
+}  // namespace
 
 std::span<const FigureRow> figures() {
     static constexpr std::array rows{
@@ -31,6 +56,12 @@ const FigureRow& find_figure(std::string_view name) {
 
 VoxelRowPicture voxel_row_picture(const Session& session, const SelectedRay& ray, Results& results,
                                   Progress& progress) {
+    UnpackedVoxels unpacked;
+    return voxel_row_picture(session, ray, results, progress, unpacked);
+}
+
+VoxelRowPicture voxel_row_picture(const Session& session, const SelectedRay& ray, Results& results, Progress& progress,
+                                  UnpackedVoxels& unpacked) {
     const auto structure = results.structure(session, progress);
     const auto scene = results.scene(session, progress);
     const voxel_rows::RowArray& array = voxel_rows::row_array(structure->value.structure);
@@ -39,8 +70,7 @@ VoxelRowPicture voxel_row_picture(const Session& session, const SelectedRay& ray
     VoxelRowPicture picture;
     picture.scene = {scene, &scene->value};
     picture.resolution = array.grid.resolution;
-    picture.occupied =
-        std::make_shared<const std::vector<std::uint8_t>>(voxel_rows::unpack_voxelization(array, served.direction));
+    picture.occupied = occupied_voxels(unpacked, structure, served.direction);
     picture.world_from_voxels = voxel_rows::world_from_voxels(array.grid, served.direction);
     picture.v = served.v;
     picture.w = served.w;

@@ -89,6 +89,13 @@ public:
         fail_unknown(at(name), "has no choice " + chosen, chosen, names);
     }
 
+    template <class Enum>
+    void optional_choice(std::string_view name, std::optional<Enum>& value, std::span<const std::string_view> names) {
+        if (find(name) == nullptr) return;
+        value.emplace();
+        choice(name, *value, names);
+    }
+
     template <class Value, class Describe>
     void object(std::string_view name, Value& value, Describe describe) {
         const nlohmann::json* json = find(name);
@@ -214,6 +221,11 @@ public:
     template <class Enum>
     void choice(std::string_view name, Enum value, std::span<const std::string_view> names) {
         json_[std::string(name)] = names[static_cast<std::size_t>(value)];
+    }
+    template <class Enum>
+    void optional_choice(std::string_view name, const std::optional<Enum>& value,
+                         std::span<const std::string_view> names) {
+        if (value) choice(name, *value, names);
     }
     template <class Value, class Describe>
     void object(std::string_view name, const Value& value, Describe describe) {

@@ -1,5 +1,6 @@
 #include "app/report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -51,10 +52,27 @@ Json all_parameters(const Session& session) {
     return all;
 }
 
-ImageScalar scalar_from(const Image<std::uint32_t>& counts) {
-    ImageScalar values(counts.size);
-    for (std::size_t p = 0; p < counts.pixels.size(); ++p) values.pixels[p] = static_cast<float>(counts.pixels[p]);
-    return values;
+template <class Pixel>
+Image<Pixel> cropped(const Image<Pixel>& image, PixelRect rect) {
+    Image<Pixel> part(ImageSize{rect.width, rect.height});
+    for (int y = 0; y < rect.height; ++y) std::copy_n(&image.at(rect.x, rect.y + y), rect.width, &part.at(0, y));
+    return part;
+}
+
+/// `show` of a part of an image, without a copy where that is all of it.
+template <class Pixel, class Show>
+ImageRgba8 part_shown(const Image<Pixel>& image, PixelRect rect, const Show& show) {
+    const bool whole = rect == PixelRect{0, 0, image.size.width, image.size.height};
+    return whole ? show(image) : show(cropped(image, rect));
+}
+
+ImageRgba8 counts_shown(const RenderResult& picture, PixelRect rect, std::size_t lights, bool seen_only) {
+    const auto asked = cropped(picture.rays_asked, rect);
+    const ImageScalar shadow = cropped(picture.shadow, rect);
+    ImageScalar counts(asked.size);
+    for (std::size_t p = 0; p < counts.pixels.size(); ++p)
+        counts.pixels[p] = static_cast<float>(asked.pixels[p]) * (seen_only ? 1.0f - shadow.pixels[p] : 1.0f);
+    return colour_mapped(counts, 0.0f, static_cast<float>(lights));
 }
 
 }  // namespace
@@ -138,24 +156,41 @@ std::string text_from_report(const RenderReport& report) {
     return text_from(table);
 }
 
+bool can_show(Channel channel, const ChannelSource& from) {
+    const bool compares = channel == Channel::visibility_error || channel == Channel::shadow_error;
+    return compares ? from.errors != nullptr : channel != Channel::reference || from.reference != nullptr;
+}
+
+ImageRgba8 shown_channel(Channel channel, const Display& display, const ChannelSource& from, PixelRect rect) {
+    const auto mapped = [](float low, float high) {
+        return [low, high](const ImageScalar& values) { return colour_mapped(values, low, high); };
+    };
+    const auto lit = [&](const ImageRgb& radiance) { return shown(radiance, display); };
+    if (can_show(channel, from)) switch (channel) {
+            case Channel::lit:
+                break;
+            case Channel::reference:
+                return part_shown(from.reference->radiance, rect, lit);
+            case Channel::shadow:
+                return part_shown(from.picture->shadow, rect, mapped(0.0f, 1.0f));
+            case Channel::visibility_error:
+                return part_shown(from.errors->visibility_error, rect, mapped(0.0f, visibility_error_shown));
+            case Channel::shadow_error:
+                return part_shown(from.errors->shadow_error, rect, mapped(-1.0f, 1.0f));
+            case Channel::rays:
+                return counts_shown(*from.picture, rect, from.lights, false);
+            case Channel::lights_seen:
+                return counts_shown(*from.picture, rect, from.lights, true);
+        }
+    return part_shown(from.picture->radiance, rect, lit);
+}
+
 ImageRgba8 shown_channel(const RenderReport& report) {
     const RenderResult& picture = report.picture->value;
-    switch (report.session.channel) {
-        case Channel::lit:
-            break;
-        case Channel::reference:
-            return shown(report.reference->value.radiance, report.session.display);
-        case Channel::shadow:
-            return colour_mapped(picture.shadow, 0.0f, 1.0f);
-        case Channel::visibility_error:
-            return colour_mapped(report.errors->value.visibility_error, 0.0f, visibility_error_shown);
-        case Channel::shadow_error:
-            return colour_mapped(report.errors->value.shadow_error, -1.0f, 1.0f);
-        case Channel::rays:
-            return colour_mapped(scalar_from(picture.rays_asked), 0.0f,
-                                 static_cast<float>(report.lights->value.size()));
-    }
-    return shown(picture.radiance, report.session.display);
+    const ChannelSource from{&picture, report.reference ? &report.reference->value : nullptr,
+                             report.errors ? &report.errors->value : nullptr, report.lights->value.size()};
+    const ImageSize size = picture.radiance.size;
+    return shown_channel(report.session.channel, report.session.display, from, {0, 0, size.width, size.height});
 }
 
 }  // namespace sightlines

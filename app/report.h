@@ -33,6 +33,20 @@ Json json_from_report(const RenderReport& report);
 /// Aligned lines for a newcomer. `title` heads them.
 std::string text_from_report(const RenderReport& report);
 
+/// What the channels of a picture are drawn from. Reference and errors are null where they are not known.
+struct ChannelSource {
+    const RenderResult* picture = nullptr;
+    const RenderResult* reference = nullptr;
+    const ErrorMetrics* errors = nullptr;
+    std::size_t lights = 0;  ///< that the scene has
+};
+
+/// Whether all is known that the channel is drawn from.
+bool can_show(Channel channel, const ChannelSource& from);
+
+/// The part `rect` of a channel as it is shown; the lit picture where the channel cannot be shown.
+ImageRgba8 shown_channel(Channel channel, const Display& display, const ChannelSource& from, PixelRect rect);
+
 /// The channel of the session as it is shown.
 ImageRgba8 shown_channel(const RenderReport& report);
 

@@ -44,8 +44,11 @@ template <class Value>
 template <class Make>
 Shared<Value> Stage<Value>::get(const Session& part, Progress& progress, bool forget_first, Make make) {
     if (auto ready = latest(part)) return ready;
-    std::unique_lock making(making_, std::defer_lock);
-    while (!making.try_lock_for(std::chrono::milliseconds(20))) progress.check();
+    begin_making(progress);
+    const struct Making {
+        Stage& stage;
+        ~Making() { stage.end_making(); }
+    } making{*this};
     if (auto ready = latest(part)) return ready;
     progress.check();
     if (forget_first) keep(std::nullopt, nullptr);
@@ -126,8 +129,9 @@ Backend Results::backend(const Session& session) const {
 }
 
 Session Results::resolved(Session session) const {
-    if (session.backend == BackendChoice::automatic)
-        session.backend = automatic_ == Backend::vulkan ? BackendChoice::vulkan : BackendChoice::cpu;
+    if (session.backend != BackendChoice::automatic) return session;
+    std::call_once(automatic_asked_, [this] { automatic_answer_ = automatic_(); });
+    session.backend = automatic_answer_ == Backend::vulkan ? BackendChoice::vulkan : BackendChoice::cpu;
     return session;
 }
 
@@ -148,7 +152,12 @@ Shared<SceneModel> Results::model(const Session& session, Progress& progress) {
     return model_.get(model_part(session), progress, true, [&] { return find_scene(session.scene, progress); });
 }
 
+Shared<SceneModel> Results::tried_model(const Session& session, Progress& progress) {
+    return model_.get(model_part(session), progress, false, [&] { return find_scene(session.scene, progress); });
+}
+
 Shared<Scene> Results::scene(const Session& session, Progress& progress) {
+    if (auto ready = scene_.latest(scene_part(session))) return ready;
     const auto model = this->model(session, progress);
     return scene_.get(scene_part(session), progress, false, [&] { return model->value.at(session.time_s); });
 }
@@ -190,6 +199,7 @@ Shared<RenderResult> Results::picture(const Session& session, Progress& progress
     if (needs_reference(session)) check_verdicts(session, lights->value.size());
     const auto surfaces = this->surfaces(session, progress);
     const auto structure = this->structure(session, progress);
+    if (auto ready = latest_picture(session)) return ready;
     return picture_.get(picture_part(resolved(session)), progress, false, [&] {
         RenderRequest asked = request(session, surfaces->value, lights->value);
         asked.on_region = on_region;
@@ -197,13 +207,15 @@ Shared<RenderResult> Results::picture(const Session& session, Progress& progress
     });
 }
 
-Shared<RenderResult> Results::reference(const Session& session, Progress& progress) {
+Shared<RenderResult> Results::reference(const Session& session, Progress& progress, const OnRegion& on_region) {
     const auto lights = this->lights(session, progress);
     if (needs_reference(session)) check_verdicts(session, lights->value.size());
     const auto surfaces = this->surfaces(session, progress);
     const auto embree = this->embree(session, progress);
     return reference_.get(reference_part(session), progress, false, [&] {
-        return render_reference(*embree->value, request(session, surfaces->value, lights->value), progress);
+        RenderRequest asked = request(session, surfaces->value, lights->value);
+        asked.on_region = on_region;
+        return render_reference(*embree->value, asked, progress);
     });
 }
 
@@ -215,7 +227,16 @@ Shared<ErrorMetrics> Results::errors(const Session& session, Progress& progress)
 }
 
 Shared<RenderResult> Results::latest_picture(const Session& session) const {
-    return picture_.latest(picture_part(resolved(session)));
+    if (picture_.empty()) return nullptr;
+    Session part = picture_part(resolved(session));
+    if (auto ready = picture_.latest(part)) return ready;
+    // One that was made to be compared is the same picture, with every ray's answer besides.
+    part.reference = true;
+    return picture_.latest(part);
+}
+
+Shared<BuiltStructure> Results::latest_structure(const Session& session) const {
+    return structure_.empty() ? nullptr : structure_.latest(structure_part(resolved(session)));
 }
 
 }  // namespace sightlines

@@ -2,11 +2,14 @@
 // that they depend on stays the same. Moving a light does not rebuild the structure; the exposure renders nothing.
 #pragma once
 
+#include <chrono>
+#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/session.h"
@@ -43,6 +46,10 @@ public:
         const std::lock_guard lock(latest_mutex_);
         return part_ && *part_ == part ? value_ : nullptr;
     }
+    bool empty() const {
+        const std::lock_guard lock(latest_mutex_);
+        return value_ == nullptr;
+    }
 
     /// The result for `part`, by `make()` where the latest one is not it. `forget_first`: lets go of the latest one
     /// before making the next, so that two large ones never live at the same time.
@@ -56,7 +63,26 @@ private:
         value_.swap(value);  // the old one is destroyed after the lock is released
     }
 
-    std::timed_mutex making_;
+    /// Waits until nobody else makes the result, or until the progress is cancelled.
+    void begin_making(const Progress& progress) {
+        std::unique_lock lock(making_mutex_);
+        while (making_) {
+            progress.check();
+            made_.wait_for(lock, std::chrono::milliseconds(20));
+        }
+        making_ = true;
+    }
+    void end_making() {
+        {
+            const std::lock_guard lock(making_mutex_);
+            making_ = false;
+        }
+        made_.notify_all();
+    }
+
+    std::mutex making_mutex_;
+    std::condition_variable made_;
+    bool making_ = false;
     mutable std::mutex latest_mutex_;
     std::optional<Session> part_;
     Shared<Value> value_;
@@ -71,9 +97,13 @@ class Results {
 public:
     /// `threads` 0: as many as the machine has; never changes a result. `automatic`: what a session that leaves the
     /// choice of backend open gets (automatic_backend()).
-    Results(int threads, Backend automatic) : threads_(threads), automatic_(automatic) {}
+    Results(int threads, Backend automatic) : Results(threads, [automatic] { return automatic; }) {}
+    /// `automatic` is called once, by the thread that first needs to know: asking the driver takes time.
+    Results(int threads, std::function<Backend()> automatic) : threads_(threads), automatic_(std::move(automatic)) {}
 
     Shared<SceneModel> model(const Session& session, Progress& progress);
+    /// As `model`, but what was there stays until the new one is read: for a scene that is only tried.
+    Shared<SceneModel> tried_model(const Session& session, Progress& progress);
     Shared<Scene> scene(const Session& session, Progress& progress);
     Shared<std::shared_ptr<const EmbreeScene>> embree(const Session& session, Progress& progress);
     Shared<SurfaceBuffer> surfaces(const Session& session, Progress& progress);
@@ -81,24 +111,30 @@ public:
     Shared<BuiltStructure> structure(const Session& session, Progress& progress);
     /// With verdicts where the session asks for the reference. `on_region` is called only where the picture is made.
     Shared<RenderResult> picture(const Session& session, Progress& progress, const OnRegion& on_region = {});
-    Shared<RenderResult> reference(const Session& session, Progress& progress);
+    /// `on_region` as for `picture`.
+    Shared<RenderResult> reference(const Session& session, Progress& progress, const OnRegion& on_region = {});
     /// The technique's picture against the reference; the session must ask for the reference.
     Shared<ErrorMetrics> errors(const Session& session, Progress& progress);
 
     /// What is there already, without waiting: for the screen, which shows what it has while the next is being made.
     Shared<RenderResult> latest_picture(const Session& session) const;
+    Shared<BuiltStructure> latest_structure(const Session& session) const;
 
     int threads() const { return threads_; }
     /// Where the session's technique runs.
     Backend backend(const Session& session) const;
-
-private:
-    Session resolved(Session session) const;
+    /// What the session asks of a technique for these surfaces, which may be of another size. The arguments must
+    /// outlive what is returned.
     RenderRequest request(const Session& session, const SurfaceBuffer& surfaces,
                           const std::vector<Light>& lights) const;
 
+private:
+    Session resolved(Session session) const;
+
     int threads_;
-    Backend automatic_;
+    std::function<Backend()> automatic_;
+    mutable std::once_flag automatic_asked_;
+    mutable Backend automatic_answer_ = Backend::cpu;
     Stage<SceneModel> model_;
     Stage<Scene> scene_;
     Stage<std::shared_ptr<const EmbreeScene>> embree_;

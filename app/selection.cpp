@@ -1,6 +1,7 @@
 #include "app/selection.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -10,9 +11,6 @@
 
 namespace sightlines {
 namespace {
-
-/// How many of a pixel's rays are recorded in the search for one that is judged wrongly.
-constexpr std::size_t most_rays_searched = 512;
 
 bool is_asked(const Light& light, vec3 position, vec3 normal) {
     const vec3 to_light = scalar_kernel::to_light(light_record(light), position, 1.0f);
@@ -62,12 +60,11 @@ ivec2 middle_pixel(const SurfaceBuffer& surfaces, const std::vector<Light>& ligh
     return *best;
 }
 
-std::uint32_t checked_light(std::uint32_t light, ivec2 pixel, std::span<const std::uint32_t> asked,
-                            std::size_t light_count) {
+void check_light(std::uint32_t light, ivec2 pixel, std::span<const std::uint32_t> asked, std::size_t light_count) {
     if (light >= light_count)
         throw InputError("--light", "", std::to_string(light) + " does not exist",
                          light_count == 0 ? "there are no lights" : "0 to " + std::to_string(light_count - 1));
-    if (std::ranges::find(asked, light) != asked.end()) return light;
+    if (std::ranges::find(asked, light) != asked.end()) return;
     const auto after = std::ranges::lower_bound(asked, light);
     const std::string near =
         asked.empty() ? "no light is in front of it"
@@ -76,6 +73,61 @@ std::uint32_t checked_light(std::uint32_t light, ivec2 pixel, std::span<const st
         "--light", "",
         std::to_string(light) + " stands behind the surface at pixel " + pixel_text(pixel) + ", so no ray is asked",
         near);
+}
+
+/// All that a pixel's rays are recorded and judged with.
+struct PixelRecorder {
+    Shared<SurfaceBuffer> surfaces;
+    Shared<std::vector<Light>> lights;
+    Shared<BuiltStructure> structure;
+    Shared<std::shared_ptr<const EmbreeScene>> embree;
+    ParameterValues parameters;
+    ivec2 pixel{0};
+    std::size_t index = 0;               ///< of the pixel
+    std::vector<std::uint32_t> asked{};  ///< by the pixel, in order
+
+    SelectedRay record(std::uint32_t light) const {
+        SelectedRay recorded{pixel, light, {}, {}, false};
+        recorded.request = {surfaces->value.position[index], surfaces->value.normal[index], lights->value[light],
+                            parameters};
+        recorded.trace = structure->value.technique->trace(structure->value.structure, recorded.request);
+        recorded.truly_blocked = occluded(*embree->value, recorded.trace.ray, recorded.request.normal);
+        return recorded;
+    }
+};
+
+PixelRecorder pixel_recorder(const Session& session, std::optional<ivec2> known_pixel, Results& results,
+                             Progress& progress) {
+    PixelRecorder recorder;
+    recorder.lights = results.lights(session, progress);
+    recorder.surfaces = results.surfaces(session, progress);
+    const SurfaceBuffer& surfaces = recorder.surfaces->value;
+    recorder.pixel = session.selection.pixel ? checked_pixel(surfaces, *session.selection.pixel)
+                     : known_pixel           ? checked_pixel(surfaces, *known_pixel)
+                                             : middle_pixel(surfaces, recorder.lights->value);
+    recorder.index = static_cast<std::size_t>(recorder.pixel.y) * static_cast<std::size_t>(session.size.width) +
+                     static_cast<std::size_t>(recorder.pixel.x);
+    recorder.asked = asked_lights(surfaces, recorder.index, recorder.lights->value);
+    if (recorder.asked.empty())
+        throw InputError("--pixel", "", pixel_text(recorder.pixel) + " has no light in front of its surface",
+                         "choose another pixel");
+    recorder.structure = results.structure(session, progress);
+    recorder.embree = results.embree(session, progress);
+    recorder.parameters = technique_parameters(session);
+    return recorder;
+}
+
+/// From the surface to the light, or to where the way to it leaves the box.
+float distance_to(const Light& light, vec3 position, const Box3& bounds) {
+    if (light.kind != LightKind::directional) return glm::length(light.position - position);
+    float distance_m = std::numeric_limits<float>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const float way = -light.direction[axis];
+        if (way == 0.0f) continue;
+        const float wall = way > 0.0f ? bounds.highest[axis] : bounds.lowest[axis];
+        distance_m = std::min(distance_m, std::max(0.0f, (wall - position[axis]) / way));
+    }
+    return distance_m;
 }
 
 }  // namespace
@@ -88,38 +140,37 @@ std::vector<std::uint32_t> asked_lights(const SurfaceBuffer& surfaces, std::size
     return asked;
 }
 
-SelectedRay select_ray(const Session& session, Results& results, Progress& progress) {
-    const auto lights = results.lights(session, progress);
-    const auto surfaces = results.surfaces(session, progress);
-    SelectedRay ray;
-    ray.pixel = session.selection.pixel ? checked_pixel(surfaces->value, *session.selection.pixel)
-                                        : middle_pixel(surfaces->value, lights->value);
-    const std::size_t pixel = static_cast<std::size_t>(ray.pixel.y) * static_cast<std::size_t>(session.size.width) +
-                              static_cast<std::size_t>(ray.pixel.x);
-    const std::vector<std::uint32_t> asked = asked_lights(surfaces->value, pixel, lights->value);
-    if (session.selection.light) checked_light(*session.selection.light, ray.pixel, asked, lights->value.size());
-    if (asked.empty())
-        throw InputError("--pixel", "", pixel_text(ray.pixel) + " has no light in front of its surface",
-                         "choose another pixel");
-    const auto structure = results.structure(session, progress);
-    const auto embree = results.embree(session, progress);
-    const auto record = [&](std::uint32_t light) {
-        SelectedRay recorded{ray.pixel, light, {}, {}, false};
-        recorded.request = {surfaces->value.position[pixel], surfaces->value.normal[pixel], lights->value[light],
-                            technique_parameters(session)};
-        recorded.trace = structure->value.technique->trace(structure->value.structure, recorded.request);
-        recorded.truly_blocked = occluded(*embree->value, recorded.trace.ray, recorded.request.normal);
-        return recorded;
-    };
-    if (session.selection.light) return record(*session.selection.light);
-    std::optional<SelectedRay> first_blocked;
-    for (std::size_t i = 0; i < std::min(asked.size(), most_rays_searched); ++i) {
-        progress.check();
-        SelectedRay recorded = record(asked[i]);
-        if (recorded.trace.blocked != recorded.truly_blocked) return recorded;
-        if (recorded.trace.blocked && !first_blocked) first_blocked = std::move(recorded);
+PixelRays pixel_rays(const Session& session, Results& results, Progress& progress) {
+    const PixelRecorder recorder = pixel_recorder(session, std::nullopt, results, progress);
+    const Box3 bounds = results.scene(session, progress)->value.bounds;
+    PixelRays rays{recorder.pixel, {}};
+    progress.begin("following the rays of the pixel", static_cast<std::int64_t>(recorder.asked.size()));
+    for (const std::uint32_t light : recorder.asked) {
+        const SelectedRay ray = recorder.record(light);
+        rays.rows.push_back({light, ray.trace.blocked, ray.truly_blocked,
+                             distance_to(ray.request.light, ray.request.position, bounds)});
+        progress.advance();
     }
-    return first_blocked ? *first_blocked : record(asked.front());
+    return rays;
+}
+
+SelectedRay select_ray(const Session& session, const PixelRays& rays, Results& results, Progress& progress) {
+    const PixelRecorder recorder = pixel_recorder(session, rays.pixel, results, progress);
+    if (session.selection.light) {
+        check_light(*session.selection.light, recorder.pixel, recorder.asked, recorder.lights->value.size());
+        return recorder.record(*session.selection.light);
+    }
+    auto row = std::ranges::find_if(rays.rows, &RayRow::wrong);
+    if (row == rays.rows.end()) row = std::ranges::find_if(rays.rows, &RayRow::blocked);
+    if (row == rays.rows.end()) row = rays.rows.begin();
+    return recorder.record(row->light);
+}
+
+SelectedRay select_ray(const Session& session, Results& results, Progress& progress) {
+    if (!session.selection.light) return select_ray(session, pixel_rays(session, results, progress), results, progress);
+    const PixelRecorder recorder = pixel_recorder(session, std::nullopt, results, progress);
+    check_light(*session.selection.light, recorder.pixel, recorder.asked, recorder.lights->value.size());
+    return recorder.record(*session.selection.light);
 }
 
 }  // namespace sightlines

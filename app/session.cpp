@@ -25,12 +25,23 @@ constexpr std::array<std::string_view, 3> backend_names{"automatic", "cpu", "vul
 constexpr std::array<std::string_view, 2> camera_kind_names{"perspective", "orthographic"};
 constexpr std::array<std::string_view, 3> theme_names{"light", "dark", "print"};
 constexpr std::array<std::string_view, 2> cut_away_names{"none", "to_row"};
-constexpr std::array<std::string_view, 6> channel_names{"lit",          "reference", "shadow", "visibility_error",
-                                                        "shadow_error", "rays"};
+constexpr std::array<std::string_view, 7> channel_names{
+    "lit", "reference", "shadow", "visibility_error", "shadow_error", "rays", "lights_seen"};
+
+constexpr std::array<std::string_view, pane_count> content_names{"image",  "inside", "rays",
+                                                                 "source", "values", "parameters"};
+constexpr std::array<std::string_view, pane_count> place_names{"upper_left",   "upper_right", "lower_left",
+                                                               "lower_middle", "lower_right", "side"};
+constexpr std::array<std::string_view, 5> column_names{"light", "ours", "truth", "distance", "error"};
 
 constexpr auto describe_size = [](auto& fields, auto& size) {
     fields.number("width", size.width, 1, max_side_pixels);
     fields.number("height", size.height, 1, max_side_pixels);
+};
+
+constexpr auto describe_moved_light = [](auto& fields, auto& moved) {
+    fields.number("light", moved.light, 0u, max_lights - 1u);
+    fields.vector("position_m", moved.position, -farthest_m, farthest_m);
 };
 
 constexpr auto describe_lights = [](auto& fields, auto& lights) {
@@ -39,6 +50,7 @@ constexpr auto describe_lights = [](auto& fields, auto& lights) {
     fields.boolean("moving", lights.moving);
     fields.boolean("coloured", lights.coloured);
     fields.number("brightness", lights.brightness, 0.0f, 1e6f);
+    fields.list("moved", lights.moved, max_moved_lights, describe_moved_light);
 };
 
 constexpr auto describe_camera = [](auto& fields, auto& camera) {
@@ -87,6 +99,27 @@ constexpr auto describe_display = [](auto& fields, auto& display) {
     fields.boolean("tone_curve", display.tone_curve);
 };
 
+constexpr auto describe_layout = [](auto& fields, auto& layout) {
+    fields.number("main_width", layout.main_width, 0.05f, 0.95f);
+    fields.number("upper_height", layout.upper_height, 0.05f, 0.95f);
+    fields.number("upper_left_width", layout.upper_left, 0.05f, 0.95f);
+    fields.number("lower_left_width", layout.lower_left, 0.05f, 0.95f);
+    fields.number("lower_middle_end", layout.lower_middle, 0.05f, 0.95f);
+    for (std::size_t place = 0; place < pane_count; ++place)
+        fields.choice(place_names[place], layout.panes[place], content_names);
+    fields.optional_choice("maximised", layout.maximised, place_names);
+};
+
+constexpr auto describe_workbench = [](auto& fields, auto& workbench) {
+    fields.choice("theme", workbench.theme, std::span(theme_names).first(2));
+    fields.number("text_scale", workbench.text_scale, 0.5f, 3.0f);
+    fields.object("layout", workbench.layout, describe_layout);
+    fields.choice("sorted_by", workbench.sorted_by, column_names);
+    fields.boolean("descending", workbench.descending);
+    fields.boolean("fit_picture", workbench.fit_picture);
+    fields.boolean("lights_shown", workbench.lights_shown);
+};
+
 /// All fields but the parameters, which the technique's own table describes.
 constexpr auto describe_session = [](auto& fields, auto& session) {
     fields.text("scene", session.scene, max_text_bytes);
@@ -104,6 +137,7 @@ constexpr auto describe_session = [](auto& fields, auto& session) {
     fields.list("views", session.views, max_views, describe_view);
     fields.object("display", session.display, describe_display);
     fields.choice("channel", session.channel, channel_names);
+    fields.object("workbench", session.workbench, describe_workbench);
 };
 
 /// `{"voxel_rows": {"resolution": 64, "row_choice": "two_subrays"}}`: values as people write them.

@@ -1,6 +1,7 @@
 // The one value that everything on screen, and every file written, is a function of (DESIGN, "The one idea").
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -26,12 +27,13 @@ constexpr std::size_t max_picture_pixels = std::size_t{1} << 26u;
 constexpr std::uint32_t max_lights = 65536;
 constexpr std::size_t max_text_bytes = 4096;
 constexpr std::size_t max_views = 16;
+constexpr std::size_t max_moved_lights = 256;
 
 /// `automatic`: Vulkan on a real GPU, the CPU where there is none.
 enum class BackendChoice { automatic, cpu, vulkan };
 
 /// Which picture is shown: radiance by the technique or by the reference, or one of the technique's companions.
-enum class Channel { lit, reference, shadow, visibility_error, shadow_error, rays };
+enum class Channel { lit, reference, shadow, visibility_error, shadow_error, rays, lights_seen };
 
 /// What the user points at. `light` counts the session's lights, `step` the recorded steps of that ray.
 struct Selection {
@@ -51,6 +53,43 @@ struct View {
     bool operator==(const View&) const = default;
 };
 
+/// What a pane of the window shows.
+enum class PaneContent { image, inside, rays, source, values, parameters };
+
+/// Where a pane is: two above, three below, one at the side.
+enum class PanePlace { upper_left, upper_right, lower_left, lower_middle, lower_right, side };
+constexpr std::size_t pane_count = 6;
+
+/// How the window is divided. Shares are of the length that is divided, from the left or the top.
+struct Layout {
+    float main_width = 0.81f;    ///< of the window: what is left of the side pane
+    float upper_height = 0.66f;  ///< of the height between the bars
+    float upper_left = 0.47f;    ///< of the main width
+    float lower_left = 0.34f;    ///< of the main width
+    float lower_middle = 0.73f;  ///< of the main width: where the middle pane ends
+    std::array<PaneContent, pane_count> panes{PaneContent::image,  PaneContent::inside, PaneContent::rays,
+                                              PaneContent::source, PaneContent::values, PaneContent::parameters};
+    std::optional<PanePlace> maximised;  ///< alone between the bars
+
+    bool operator==(const Layout&) const = default;
+};
+
+/// The columns of the table of rays.
+enum class RayColumn { light, ours, truth, distance, error };
+
+/// How the window itself looks.
+struct Workbench {
+    Theme theme = Theme::dark;  ///< light or dark
+    float text_scale = 1.0f;    ///< on top of the monitor's
+    Layout layout;
+    bool fit_picture = false;   ///< the picture's size follows its pane
+    RayColumn sorted_by = RayColumn::error;
+    bool descending = true;
+    bool lights_shown = false;  ///< all lights, as dots on the image
+
+    bool operator==(const Workbench&) const = default;
+};
+
 struct Session {
     std::string scene = "atrium";  ///< a built-in scene's name, or a .gltf or .glb file
     double time_s = 0.0;
@@ -68,6 +107,7 @@ struct Session {
     std::vector<View> views;
     Display display;
     Channel channel = Channel::lit;
+    Workbench workbench;
 
     bool operator==(const Session&) const = default;
 };

@@ -31,25 +31,6 @@ std::string point_text(vec3 point) {
     return text.append(")");
 }
 
-std::string value_text(const TraceValue& value) {
-    const std::string text = std::visit(
-        [](const auto& held) -> std::string {
-            using Held = std::decay_t<decltype(held)>;
-            if constexpr (std::is_same_v<Held, vec3>)
-                return point_text(held);
-            else if constexpr (std::is_same_v<Held, bool>)
-                return held ? "true" : "false";
-            else if constexpr (std::is_same_v<Held, std::string>)
-                return held;
-            else if constexpr (std::is_same_v<Held, double>)
-                return fixed_text(held, 4);
-            else
-                return std::to_string(held);
-        },
-        value.value);
-    return value.unit.empty() ? text : text + " " + value.unit;
-}
-
 std::string verdict_text(bool blocked) { return blocked ? "blocked" : "open"; }
 
 std::string judgement(const SelectedRay& ray) {
@@ -69,6 +50,25 @@ std::string values_text(const TraceStep& step) {
 }
 
 }  // namespace
+
+std::string value_text(const TraceValue& value) {
+    const std::string text = std::visit(
+        [](const auto& held) -> std::string {
+            using Held = std::decay_t<decltype(held)>;
+            if constexpr (std::is_same_v<Held, vec3>)
+                return point_text(held);
+            else if constexpr (std::is_same_v<Held, bool>)
+                return held ? "true" : "false";
+            else if constexpr (std::is_same_v<Held, std::string>)
+                return held;
+            else if constexpr (std::is_same_v<Held, double>)
+                return fixed_text(held, 4);
+            else
+                return std::to_string(held);
+        },
+        value.value);
+    return value.unit.empty() ? text : text + " " + value.unit;
+}
 
 Json json_from_trace(const Session& session, const SelectedRay& ray) {
     Json steps = Json::array();

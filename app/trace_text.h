@@ -7,6 +7,9 @@
 
 namespace sightlines {
 
+/// A recorded value for people: a point as (x, y, z), bits in groups of four, the unit after it.
+std::string value_text(const TraceValue& value);
+
 /// Everything that was recorded, geometry included. Positions in metres, world space.
 Json json_from_trace(const Session& session, const SelectedRay& ray);
 

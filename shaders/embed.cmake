@@ -10,12 +10,15 @@ endfunction()
 set(declarations "")
 set(definitions "")
 foreach(module ${MODULES})
-  cmake_path(GET module STEM name)
+  cmake_path(GET module STEM LAST_ONLY entry_point)
+  # Compute shaders go by their name alone, the others by name and stage: a picture has two of the same name.
+  string(REGEX REPLACE "\\.comp$" "" name ${entry_point})
+  string(REPLACE "." "_" name ${name})
   file(READ ${module} bytes HEX)
   # SPIR-V is a run of 32-bit words, little-endian as glslc writes them.
   string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1u," words "${bytes}")
   string(REGEX REPLACE "((0x[0-9a-f]+u,){10})" "\\1\n    " words "${words}")
-  string(APPEND declarations "/// shaders/${name}.comp, compiled and validated.\nstd::span<const std::uint32_t> ${name}();\n")
+  string(APPEND declarations "/// shaders/${entry_point}, compiled and validated.\nstd::span<const std::uint32_t> ${name}();\n")
   string(APPEND definitions "namespace {\nconstexpr std::uint32_t ${name}_words[] = {\n    ${words}};\n}\n"
                             "std::span<const std::uint32_t> ${name}() { return ${name}_words; }\n")
 endforeach()

@@ -26,6 +26,8 @@ struct TraceGeometry {
     std::string name;  ///< "ray", "row", "extent" ...
     TraceShape shape = TraceShape::point;
     std::vector<glm::vec3> points;
+
+    bool operator==(const TraceGeometry&) const = default;
 };
 
 /// One NOTE in a kernel, as it ran.

@@ -40,6 +40,7 @@ void fill_blocks(RenderResult& result, const SurfaceBuffer& surfaces, PixelRect 
             const int from_x = std::max(rect.x, x - x % stride), from_y = std::max(rect.y, y - y % stride);
             result.radiance.at(x, y) = result.radiance.at(from_x, from_y);
             result.shadow.at(x, y) = result.shadow.at(from_x, from_y);
+            result.rays_asked.at(x, y) = result.rays_asked.at(from_x, from_y);
         }
     }
 }

@@ -94,7 +94,32 @@ void draw_bit_strip(Canvas& canvas, const VoxelRowPicture& picture, const ViewSt
                   {.height = 0.85f * text_height, .colour = colours.muted, .font = Font::mono, .align = Align::centre});
 }
 
-float draw_verdict(Canvas& canvas, const VoxelRowPicture& picture, const ViewState& state, vec2 at, float text_height) {
+namespace {
+
+/// What the verdict is made of, the longest form first.
+std::array<std::string, 3> verdict_sentences(const VoxelRowPicture& picture) {
+    int set = 0;
+    for (int u = picture.first; u <= picture.last; ++u) set += is_set(picture, {u, picture.v, picture.w});
+    const std::string count =
+        std::to_string(set) + " of " + std::to_string(std::max(picture.last - picture.first + 1, 0)) + " voxels";
+    std::string embree, why;
+    if (picture.truly_blocked) {
+        embree = *picture.truly_blocked == picture.blocked ? " Embree agrees"
+                 : *picture.truly_blocked                  ? " Embree says blocked"
+                                                           : " Embree says open";
+        if (*picture.truly_blocked != picture.blocked)
+            why = *picture.truly_blocked ? ": the row missed it" : ": the voxels are too coarse here";
+        embree += why + ".";
+    }
+    const std::string short_embree = embree.empty() ? "" : embree.substr(0, embree.size() - 1 - why.size()) + ".";
+    return {count + " looked at " + (set == 1 ? "is" : "are") + " set." + embree, count + " set." + short_embree,
+            short_embree.empty() ? count + " set." : short_embree.substr(1)};
+}
+
+}  // namespace
+
+float draw_verdict(Canvas& canvas, const VoxelRowPicture& picture, const ViewState& state, vec2 at, float width,
+                   float text_height) {
     const Palette colours = palette(state.theme);
     const float em = text_height;
     const std::string word = picture.blocked ? "BLOCKED" : "OPEN";
@@ -106,19 +131,17 @@ float draw_verdict(Canvas& canvas, const VoxelRowPicture& picture, const ViewSta
         draw_rectangle(canvas, pill, {.colour = colours.ink, .width = 0.1f * em});
     draw_text(canvas, at + vec2(0.5f * em, 0.0f), word, word_style);
 
-    int set = 0;
-    for (int u = picture.first; u <= picture.last; ++u) set += is_set(picture, {u, picture.v, picture.w});
-    const int looked_at = std::max(picture.last - picture.first + 1, 0);
-    std::string sentence = std::to_string(set) + " of " + std::to_string(looked_at) + " voxels looked at " +
-                           (set == 1 ? "is" : "are") + " set.";
-    if (picture.truly_blocked)
-        sentence += *picture.truly_blocked == picture.blocked ? " Embree agrees."
-                    : *picture.truly_blocked                  ? " Embree says blocked: the row missed it."
-                                                              : " Embree says open: the voxels are too coarse here.";
     const TextStyle style{.height = em, .colour = colours.ink};
     const vec2 start = at + vec2(pill.size.x + 0.8f * em, 0.0f);
-    draw_text(canvas, start, sentence, style);
-    return start.x - at.x + text_width(canvas, sentence, style);
+    const auto sentences = verdict_sentences(picture);
+    const auto end_of = [&](const std::string& sentence) {
+        return start.x - at.x + text_width(canvas, sentence, style);
+    };
+    const auto fitting =
+        std::ranges::find_if(sentences, [&](const std::string& sentence) { return end_of(sentence) <= width; });
+    if (fitting == sentences.end()) return pill.size.x;
+    draw_text(canvas, start, *fitting, style);
+    return end_of(*fitting);
 }
 
 void draw_angle_wedge(Canvas& canvas, const VoxelRowPicture& picture, const ViewState& state, const Rectangle& where,

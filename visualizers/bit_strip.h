@@ -13,8 +13,10 @@ namespace sightlines {
 void draw_bit_strip(Canvas& canvas, const VoxelRowPicture& picture, const ViewState& state, const Rectangle& where,
                     float text_height);
 
-/// "BLOCKED 1 of 55 voxels looked at is set. Embree agrees.", from `at` to the right; gives the width used.
-float draw_verdict(Canvas& canvas, const VoxelRowPicture& picture, const ViewState& state, vec2 at, float text_height);
+/// "BLOCKED 1 of 55 voxels looked at is set. Embree agrees.", from `at` to the right, in fewer words where `width` is
+/// too small; gives the width used.
+float draw_verdict(Canvas& canvas, const VoxelRowPicture& picture, const ViewState& state, vec2 at, float width,
+                   float text_height);
 
 /// Ray and twin as a wedge in `where`, opened `by` a round factor where the angle is too small to see, and said so.
 void draw_angle_wedge(Canvas& canvas, const VoxelRowPicture& picture, const ViewState& state, const Rectangle& where,

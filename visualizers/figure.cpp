@@ -42,7 +42,7 @@ float draw_panel(Canvas& canvas, const VoxelRowPicture& picture, const ViewState
     const Palette colours = palette(state.theme);
     const float em = text_height, inner = width - 2.0f * margin;
     float y = top + 2.0f * em;
-    const float used = draw_verdict(canvas, picture, state, {margin, y}, em);
+    const float used = draw_verdict(canvas, picture, state, {margin, y}, inner, em);
     const TextStyle where_style{.height = em, .colour = colours.muted, .align = Align::right};
     const std::string where = where_text(picture);
     if (used + text_width(canvas, where, where_style) + 2.0f * em > inner) y += 1.8f * em;

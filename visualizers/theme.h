@@ -14,6 +14,7 @@ struct Palette {
     vec3 set_bit, set_bit_clipped;      ///< a set voxel of the row inside and outside the extent
     vec3 clear_bit, clear_bit_clipped;  ///< a clear one's frame
     vec3 ray, twin, extent, light;      ///< ray, row direction, [s, e], the light's disc
+    vec3 pointed;                       ///< what the step touches, and what is pointed at
 };
 
 inline vec3 srgb(unsigned hex) {
@@ -38,7 +39,8 @@ inline Palette palette(Theme theme) {
                 .ray = srgb(0x58B7FF),
                 .twin = srgb(0xF2E27A),
                 .extent = srgb(0xEEF1F5),
-                .light = srgb(0xFFD95A)};
+                .light = srgb(0xFFD95A),
+                .pointed = srgb(0xFF7AC6)};
     return {.page = theme == Theme::print ? srgb(0xFFFFFF) : srgb(0xFAFAF8),
             .ink = srgb(0x1B1F24),
             .muted = srgb(0x5B6470),
@@ -53,7 +55,8 @@ inline Palette palette(Theme theme) {
             .ray = srgb(0x0067B8),
             .twin = srgb(0x007A5A),
             .extent = srgb(0x1B1F24),
-            .light = srgb(0xF2B705)};
+            .light = srgb(0xF2B705),
+            .pointed = srgb(0xC2187A)};
 }
 
 }  // namespace sightlines

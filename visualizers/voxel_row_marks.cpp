@@ -281,19 +281,22 @@ void draw_scale_bar(Sheet& sheet, const OrbitCamera& orbit) {
     sheet.taken.push_back({left - vec2(em, 2.0f * em), right - left + vec2(2.0f * em, 4.0f * em)});
 }
 
-/// Verdict and legend in the top left corner, on a ground that hides a little of the picture.
+/// Verdict and, where the picture is large enough, legend in the top left corner, on a ground that hides a little of
+/// the picture.
 void draw_key(Sheet& sheet, const ViewState& state) {
-    const float em = sheet.em;
+    constexpr float most_of_height = 0.28f;
+    const float em = sheet.em, small = 0.92f * em;
     Canvas& canvas = sheet.canvas;
-    const vec2 corner{em, em};
-    const float small = 0.92f * em, verdict = draw_verdict(canvas, sheet.picture, state, {-1e4f, -1e4f}, small);
-    const float width = std::min(verdict, static_cast<float>(canvas.size.x) - 4.0f * em);
-    const float legend = draw_voxel_row_legend(canvas, state, {-1e4f, -1e4f}, width, small);
-    const Rectangle ground{corner, {width + 2.0f * em, legend + 3.2f * em}};
+    const vec2 corner{em, em}, out_of_sight{-1e4f, -1e4f};
+    const float room = static_cast<float>(canvas.size.x) - 4.0f * em;
+    const float width = draw_verdict(canvas, sheet.picture, state, out_of_sight, room, small);
+    const float legend = draw_voxel_row_legend(canvas, state, out_of_sight, width, small);
+    const bool with_legend = legend + 3.2f * em < most_of_height * static_cast<float>(canvas.size.y);
+    const Rectangle ground{corner, {width + 2.0f * em, with_legend ? legend + 3.2f * em : 2.6f * em}};
     fill_rectangle(canvas, ground, sheet.colours.page, 0.88f);
     draw_rectangle(canvas, ground, {.colour = sheet.colours.hairline, .width = 1.0f});
-    draw_verdict(canvas, sheet.picture, state, corner + vec2(em, 1.7f * em), small);
-    draw_voxel_row_legend(canvas, state, corner + vec2(em, 2.8f * em), width, small);
+    draw_verdict(canvas, sheet.picture, state, corner + vec2(em, 1.7f * em), room, small);
+    if (with_legend) draw_voxel_row_legend(canvas, state, corner + vec2(em, 2.8f * em), width, small);
     sheet.taken.push_back(ground);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/session.h"
 #include "techniques/base/progress.h"
 
 namespace CLI {
@@ -32,9 +33,12 @@ void add_trace_command(CLI::App& app, Command& chosen);
 void add_figure_command(CLI::App& app, Command& chosen);
 void add_bench_command(CLI::App& app, Command& chosen);
 void add_workspace_command(CLI::App& app, Command& chosen);
+/// Renders the built-in atrium, a figure and a ray's trace into `out/`, and says which commands to try.
+void add_sample_command(CLI::App& app, Command& chosen);
 
-/// What the program does without arguments where it has no window: renders the built-in atrium, a figure and a ray's
-/// trace into `out/`, and says which commands to try.
-Command main_job();
+/// The flags of the window, which opens where no command is given: `chosen` is that until a command takes its place.
+void add_window_flags(CLI::App& app, Command& chosen);
+/// Opens the window with that session; returns when it is closed.
+CommandOutput open_workspace(Session session, Progress& progress);
 
 }  // namespace sightlines

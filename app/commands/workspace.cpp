@@ -40,14 +40,13 @@ CommandOutput run_workspace(const WorkspaceFlags& flags, Progress& progress) {
         throw InputError("--figure", "", "needs a folder to write into", "give --out FOLDER");
     if (!flags.figure.name.empty()) return figure_to_files(session, flags.figure, results, flags.common, progress);
     if (!flags.outputs.picture.empty()) return render_to_files(session, flags.outputs, results, flags.common, progress);
-    throw EnvironmentError("workspace", "there is no window to open it in",
-                           "--render FILE.png makes its picture, --figure NAME --out FOLDER one of its figures");
+    return open_workspace(session, progress);
 }
 
 }  // namespace
 
 void add_workspace_command(CLI::App& app, Command& chosen) {
-    CLI::App& command = *app.add_subcommand("workspace", "Render a saved session, or make a figure of it");
+    CLI::App& command = *app.add_subcommand("workspace", "Open a saved session in the window, render it, or make a figure of it");
     const auto flags = std::make_shared<WorkspaceFlags>();
     command
         .add_option("files", flags->files, "A session as JSON; further files change it, each a merge patch (RFC 7386)")

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int region_size = 32;  // pixels; what one task works through and reports
 constexpr int tile_size = 8;  // pixels; four packets that meet each light in turn, while their part of the tree is near
+constexpr std::uint32_t lights_between_checks = 1024;  // whether to stop
 
 /// What a block has gathered from the lights so far.
 struct BlockSums {
@@ -64,7 +65,7 @@ struct ReferenceRender {
         }
     }
 
-    void render_tile(int left, int top) const {
+    void render_tile(int left, int top, const Progress& progress) const {
         constexpr int blocks_across = tile_size / block_side;
         std::array<ShadowBlock, blocks_across * blocks_across> blocks;
         std::array<BlockSums, blocks_across * blocks_across> sums{};
@@ -74,9 +75,11 @@ struct ReferenceRender {
                              top + b / blocks_across * block_side, surface_offset_m(embree));
         alignas(64) RTCRay16 rays;
         prepare_packet(rays);
-        for (std::uint32_t light = 0; light < lights.size(); ++light)
+        for (std::uint32_t light = 0; light < lights.size(); ++light) {
+            if (light % lights_between_checks == 0) progress.check();
             for (std::size_t b = 0; b < blocks.size(); ++b)
                 if (blocks[b].any_surface) ask_light(light, blocks[b], rays, sums[b]);
+        }
         for (std::size_t b = 0; b < blocks.size(); ++b)
             if (blocks[b].any_surface) write_block(blocks[b], sums[b]);
     }
@@ -100,12 +103,8 @@ RenderResult render_reference(const EmbreeScene& embree, const RenderRequest& re
                        static_cast<int>(region / columns) * region_size, 0, 0};
         rect.width = std::min(region_size, size.width - rect.x);
         rect.height = std::min(region_size, size.height - rect.y);
-        for (int y = 0; y < rect.height; y += tile_size) {
-            for (int x = 0; x < rect.width; x += tile_size) {
-                progress.check();
-                render.render_tile(rect.x + x, rect.y + y);
-            }
-        }
+        for (int y = 0; y < rect.height; y += tile_size)
+            for (int x = 0; x < rect.width; x += tile_size) render.render_tile(rect.x + x, rect.y + y, progress);
         progress.advance();
         if (request.on_region) {
             const std::lock_guard lock(one_report_at_a_time);

@@ -82,6 +82,10 @@ std::vector<Material> materials() {
         diffuse("lantern glass", {0.8f, 0.6f, 0.3f}),
     };
     all[lantern_glass].emissive = {3.2f, 1.7f, 0.6f};
+    // Cloths, leaves and blades are sheets; all else bounds something solid.
+    for (Material& material : all) material.double_sided = false;
+    for (const auto sheet : {crimson, ultramarine, saffron, emerald, leaf_dark, leaf_mid, leaf_light, blade_green})
+        all[sheet].double_sided = true;
     return all;
 }
 

@@ -94,12 +94,7 @@ Light default_light(const Box3& volume, float brightness) {
     return light;
 }
 
-}  // namespace
-
-std::vector<Light> make_lights(const Scene& scene, const LightChoice& choice, std::uint64_t seed) {
-    if (choice.count > most_lights)
-        throw InputError("lights", "", std::to_string(choice.count) + " lights are too many",
-                         "the most is " + std::to_string(most_lights));
+std::vector<Light> placed_lights(const Scene& scene, const LightChoice& choice, std::uint64_t seed) {
     const Box3 bounds = scene.bounds.empty() ? Box3{vec3(-1.0f), vec3(1.0f)} : scene.bounds;
     const Box3 volume = scene.light_volume.empty() ? bounds : scene.light_volume;
     if (choice.count == 0) {
@@ -123,6 +118,19 @@ std::vector<Light> make_lights(const Scene& scene, const LightChoice& choice, st
         lights[k].intensity =
             intensity * (choice.coloured ? hue_color(white_balanced_hue(draw(seed, k, Draw::hue))) : vec3(1.0f));
     }
+    return lights;
+}
+
+}  // namespace
+
+std::vector<Light> make_lights(const Scene& scene, const LightChoice& choice, std::uint64_t seed) {
+    if (choice.count > most_lights)
+        throw InputError("lights", "", std::to_string(choice.count) + " lights are too many",
+                         "the most is " + std::to_string(most_lights));
+    std::vector<Light> lights = placed_lights(scene, choice, seed);
+    for (const MovedLight& moved : choice.moved)
+        if (moved.light < lights.size() && lights[moved.light].kind != LightKind::directional)
+            lights[moved.light].position = moved.position;
     return lights;
 }
 

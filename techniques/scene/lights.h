@@ -10,6 +10,14 @@ namespace sightlines {
 
 enum class LightPlacement { volume, sphere };
 
+/// A light that was put somewhere else by hand.
+struct MovedLight {
+    std::uint32_t light = 0;
+    vec3 position{0.0f};  ///< m
+
+    bool operator==(const MovedLight&) const = default;
+};
+
 /// Which lights illuminate a scene: the scene's own, or `count` seeded point lights.
 struct LightChoice {
     std::uint32_t count = 0;  ///< 0: the scene's own lights (a default light where it has none)
@@ -17,6 +25,7 @@ struct LightChoice {
     bool moving = false;      ///< each light goes round its own small loop with time
     bool coloured = true;     ///< hues vary; off: all white
     float brightness = 1.0f;  ///< multiplies the automatic total intensity
+    std::vector<MovedLight> moved;  ///< in any order; those that do not exist are passed over
 
     bool operator==(const LightChoice&) const = default;
 };

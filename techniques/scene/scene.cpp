@@ -29,6 +29,25 @@ Camera framing_camera(const Box3& bounds) {
     return camera;
 }
 
+CameraFrame camera_frame(const Camera& camera, ImageSize size) {
+    CameraFrame frame{};
+    const vec3 ahead = camera.target - camera.position;
+    frame.forward = glm::dot(ahead, ahead) > 0.0f ? glm::normalize(ahead) : vec3(0.0f, 0.0f, -1.0f);
+    vec3 sideways = glm::cross(frame.forward, camera.up);
+    if (glm::dot(sideways, sideways) < 1.0e-12f * std::max(1.0e-30f, glm::dot(camera.up, camera.up))) {
+        // Looking along `up`: any other direction will do.
+        const vec3 other = std::fabs(frame.forward.z) < 0.9f ? vec3(0.0f, 0.0f, -1.0f) : vec3(0.0f, 1.0f, 0.0f);
+        sideways = glm::cross(frame.forward, other);
+    }
+    frame.right = glm::normalize(sideways);
+    frame.up = glm::cross(frame.right, frame.forward);
+    frame.half_height = camera.kind == CameraKind::orthographic
+                            ? 0.5f * camera.orthographic_height_m
+                            : std::tan(0.5f * glm::radians(camera.vertical_field_of_view_deg));
+    frame.half_width = frame.half_height * static_cast<float>(size.width) / static_cast<float>(size.height);
+    return frame;
+}
+
 Camera find_camera(const Scene& scene, const std::string& name) {
     if (scene.cameras.empty()) return framing_camera(scene.bounds);
     if (name.empty()) return scene.cameras.front();

@@ -108,6 +108,13 @@ struct SceneModel {
 /// A camera that shows the whole box, from the front, a little above.
 Camera framing_camera(const Box3& bounds);
 
+/// The picture's frame in space.
+struct CameraFrame {
+    vec3 right{0.0f}, up{0.0f}, forward{0.0f};    ///< unit, world
+    float half_width = 1.0f, half_height = 1.0f;  ///< perspective: at unit distance; orthographic: m
+};
+CameraFrame camera_frame(const Camera& camera, ImageSize size);
+
 /// The scene's camera called `name`, or its first where `name` is empty. InputError offers the nearest name.
 Camera find_camera(const Scene& scene, const std::string& name);
 

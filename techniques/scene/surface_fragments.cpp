@@ -28,16 +28,33 @@ struct Sample {
 };
 
 /// The samples of one chunk of triangles, in triangle order. Cells sampled a short while ago are remembered, so that
-/// most of a chunk's repetitions never reach memory.
+/// most of a chunk's repetitions become one sample with their summed area.
 struct SampleList {
     std::vector<Sample> samples;
-    std::vector<std::uint64_t> recent = std::vector<std::uint64_t>(4096, ~std::uint64_t{0});
+    std::vector<std::uint32_t> recent = std::vector<std::uint32_t>(4096, ~std::uint32_t{0});
+    std::vector<Sample> of_triangle;  ///< those of the triangle at hand
+    std::size_t taken = 0;            ///< of the triangle at hand, those outside the grid as well
 
+    /// Gives each sample of the triangle at hand its share of the area, and moves on to the next triangle.
+    void finish_triangle(double area_m2) {
+        for (Sample& sample : of_triangle) {
+            sample.fragment.area_m2 = static_cast<float>(area_m2 / static_cast<double>(taken));
+            add(sample);
+        }
+        of_triangle.clear();
+        taken = 0;
+    }
+
+private:
     void add(const Sample& sample) {
         const std::uint64_t cell = (std::uint64_t{sample.layer} << 32u) | sample.cell_in_layer;
-        std::uint64_t& remembered = recent[(cell * 0x9e3779b97f4a7c15u) >> 52u];
-        if (remembered == cell) return;
-        remembered = cell;
+        std::uint32_t& remembered = recent[(cell * 0x9e3779b97f4a7c15u) >> 52u];
+        if (remembered < samples.size() && samples[remembered].layer == sample.layer &&
+            samples[remembered].cell_in_layer == sample.cell_in_layer) {
+            samples[remembered].fragment.area_m2 += sample.fragment.area_m2;
+            return;
+        }
+        remembered = static_cast<std::uint32_t>(samples.size());
         samples.push_back(sample);
     }
 };
@@ -61,6 +78,7 @@ GridFrame grid_frame(const FragmentGrid& grid) {
 
 /// Adds the sample at `point` (in cells), unless it lies outside the grid.
 void add_sample(const GridFrame& frame, dvec3 point, std::uint32_t triangle, SampleList& samples) {
+    ++samples.taken;
     ivec3 cell;
     for (int axis = 0; axis < 3; ++axis) {
         const double last = frame.cells[axis];
@@ -70,7 +88,7 @@ void add_sample(const GridFrame& frame, dvec3 point, std::uint32_t triangle, Sam
     const auto cell_in_layer = static_cast<std::uint32_t>(cell.y) * static_cast<std::uint32_t>(frame.cells.x) +
                                static_cast<std::uint32_t>(cell.x);
     const vec3 position(frame.lowest + point * frame.metres_per_cell);
-    samples.add({{position, triangle}, cell_in_layer, static_cast<std::uint32_t>(cell.z)});
+    samples.of_triangle.push_back({{position, 0.0f, triangle}, cell_in_layer, static_cast<std::uint32_t>(cell.z)});
 }
 
 /// A triangle seen along its dominant axis: corners in cells, x and y the axes of the picture, z the depth.
@@ -199,12 +217,8 @@ bool is_thin(const Projection& triangle) {
     return longest > 2.0 && std::abs(triangle.doubled_area) < longest * std::max(1.0, 0.25 * longest);
 }
 
-void add_triangle(const GridFrame& frame, const Scene& scene, std::uint32_t index, SampleList& samples) {
-    const uvec3 vertices = scene.triangles[index];
-    std::array<dvec3, 3> corners;
-    for (int i = 0; i < 3; ++i)
-        corners[static_cast<std::size_t>(i)] =
-            (dvec3(scene.positions[vertices[i]]) - frame.lowest) * frame.cells_per_metre;
+void sample_triangle(const GridFrame& frame, const std::array<dvec3, 3>& corners, std::uint32_t index,
+                     SampleList& samples) {
     const Projection triangle = project(corners);
     const bool any = triangle.doubled_area != 0.0 && add_pixel_centres(frame, triangle, index, samples);
     if (any && !is_thin(triangle)) return;
@@ -212,6 +226,18 @@ void add_triangle(const GridFrame& frame, const Scene& scene, std::uint32_t inde
     const bool in_one_cell =
         glm::floor(corners[0]) == glm::floor(corners[1]) && glm::floor(corners[0]) == glm::floor(corners[2]);
     if (!in_one_cell) add_edges(frame, triangle, index, any, samples);
+}
+
+void add_triangle(const GridFrame& frame, const Scene& scene, std::uint32_t index, SampleList& samples) {
+    const uvec3 vertices = scene.triangles[index];
+    std::array<dvec3, 3> world, corners;
+    for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        world[k] = dvec3(scene.positions[vertices[i]]);
+        corners[k] = (world[k] - frame.lowest) * frame.cells_per_metre;
+    }
+    sample_triangle(frame, corners, index, samples);
+    samples.finish_triangle(0.5 * glm::length(glm::cross(world[1] - world[0], world[2] - world[0])));
 }
 
 /// The samples of one chunk of triangles by layer: those of layer k are [starts[k], starts[k + 1]), in triangle order.
@@ -234,25 +260,28 @@ Chunk sorted_by_layer(const std::vector<Sample>& samples, std::size_t layers) {
     return chunk;
 }
 
-/// Keeps the first sample of each cell of one layer.
+/// Keeps the first sample of each cell of one layer, with the area of all.
 struct LayerCells {
     std::vector<std::uint64_t> occupied;  ///< one bit a cell
-    std::vector<const Fragment*> first;   ///< [cells]; set where the bit is
+    std::vector<Fragment> kept;           ///< [cells]; valid where the bit is set
 
-    explicit LayerCells(std::size_t cells) : occupied((cells + 63) / 64, 0), first(cells) {}
+    explicit LayerCells(std::size_t cells) : occupied((cells + 63) / 64, 0), kept(cells) {}
 
     void add(const Sample& sample) {
         std::uint64_t& word = occupied[sample.cell_in_layer / 64u];
         const std::uint64_t bit = std::uint64_t{1} << (sample.cell_in_layer % 64u);
-        if (word & bit) return;
+        if (word & bit) {
+            kept[sample.cell_in_layer].area_m2 += sample.fragment.area_m2;
+            return;
+        }
         word |= bit;
-        first[sample.cell_in_layer] = &sample.fragment;
+        kept[sample.cell_in_layer] = sample.fragment;
     }
     /// Appends the kept fragments by cell, and forgets them.
     void take(std::vector<Fragment>& fragments) {
         for (std::size_t word = 0; word < occupied.size(); ++word) {
             for (std::uint64_t bits = std::exchange(occupied[word], 0); bits != 0; bits &= bits - 1)
-                fragments.push_back(*first[word * 64 + static_cast<std::size_t>(std::countr_zero(bits))]);
+                fragments.push_back(kept[word * 64 + static_cast<std::size_t>(std::countr_zero(bits))]);
         }
     }
 };

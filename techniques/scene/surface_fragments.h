@@ -18,6 +18,7 @@ struct FragmentGrid {
 /// One sample of the surface: a point in the middle of a pixel of the triangle's dominant-axis projection.
 struct Fragment {
     vec3 position{0.0f};         ///< m, world, on the triangle
+    float area_m2 = 0.0f;        ///< of all surface that the samples of its cell stand for
     std::uint32_t triangle = 0;  ///< the first (lowest) triangle that was sampled in the cell
 };
 

@@ -12,15 +12,16 @@
 namespace sightlines::voxel_rows {
 namespace {
 
-/// Marks of a whole voxelization: one byte a voxel, slice v after slice v as SliceBits packs them.
+/// Marks of a whole voxelization: a voxel that holds anything is set.
 struct Marks {
-    int resolution, stride;
-    std::vector<std::uint8_t> bytes;
+    int resolution;
+    std::vector<SliceCounts> slices;  ///< [N] along v
 
-    explicit Marks(int n) : resolution(n), stride(SliceBits(n).stride()), bytes(SliceBits(n).marks() * n) {}
+    explicit Marks(int n) : resolution(n), slices(static_cast<std::size_t>(n), SliceCounts(n)) {}
     void set(vec3 voxel) {
         const ivec3 place = glm::clamp(ivec3(glm::floor(voxel)), 0, resolution - 1);
-        bytes[(static_cast<std::size_t>(place.y) * stride + place.z) * stride + place.x] = 1;
+        SliceCounts& slice = slices[static_cast<std::size_t>(place.y)];
+        slice.bytes[static_cast<std::size_t>(slice.place_of(place.x, place.z))] = 1;
     }
 };
 
@@ -77,12 +78,13 @@ RowArray build_directly(const Scene& scene, const BuildOptions& options, Progres
             const int direction = static_cast<int>(theta) * array.grid.angles + phi;
             voxelize(scene, shape, array.grid.frames[static_cast<std::size_t>(direction)], marks);
             for (int v = 0; v < n; ++v) {
-                bits.pack(std::span(marks.bytes).subspan(static_cast<std::size_t>(v) * bits.marks(), bits.marks()), 1);
+                SliceCounts& slice = marks.slices[static_cast<std::size_t>(v)];
+                bits.pack(slice, 0, 0);
+                slice.clear();
                 transposed.transpose_of(bits);
                 store_slice(array, shape, direction, v, bits);
                 store_slice(array, shape, direction + half, v, transposed);
             }
-            std::ranges::fill(marks.bytes, std::uint8_t{0});
             progress.advance();
         }
     });

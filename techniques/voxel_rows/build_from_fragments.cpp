@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <numeric>
 
 #include "techniques/base/parallel.h"
 #include "techniques/scene/surface_fragments.h"
@@ -16,34 +17,44 @@
 namespace sightlines::voxel_rows {
 namespace {
 
-/// Fragments of one theta in the plane of its directions, sorted by slice: height along Y, reach along the horizontal.
-struct SlicedFragments {
+/// A fragment from the centre of the bounds, and how much surface it stands for: 1 to 255 fifths of a cell's face.
+struct SurfaceSample {
+    vec3 position;
+    std::uint8_t area;
+};
+constexpr double area_units = 5.0;
+
+/// Samples of one theta in the plane of its directions, sorted by slice: height along Y, reach along the horizontal.
+struct SlicedSamples {
     std::vector<float> height, reach;
+    std::vector<std::uint8_t> area;
     std::vector<std::uint32_t> first;  ///< [N + 1], where each slice begins
 };
 
 int voxel_of(float coordinate, int resolution) { return std::clamp(static_cast<int>(coordinate), 0, resolution - 1); }
 
-/// positions: from the centre of the bounds.
-SlicedFragments slice_fragments(std::span<const vec3> positions, const RowShape& shape, const DirectionFrame& frame,
-                                vec3 horizontal) {
+SlicedSamples slice_samples(std::span<const SurfaceSample> samples, const RowShape& shape, const DirectionFrame& frame,
+                            vec3 horizontal) {
     const int resolution = shape.resolution;
-    SlicedFragments sliced;
+    SlicedSamples sliced;
     sliced.first.assign(static_cast<std::size_t>(resolution) + 1, 0);
-    std::vector<std::uint16_t> slice_of(positions.size());
-    for (std::size_t k = 0; k < positions.size(); ++k) {
-        const int slice = voxel_of(scalar_kernel::along_level(shape, frame, positions[k]), resolution);
+    std::vector<std::uint16_t> slice_of(samples.size());
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        const int slice = voxel_of(scalar_kernel::along_level(shape, frame, samples[k].position), resolution);
         slice_of[k] = static_cast<std::uint16_t>(slice);
         ++sliced.first[static_cast<std::size_t>(slice) + 1];
     }
     for (std::size_t slice = 1; slice < sliced.first.size(); ++slice) sliced.first[slice] += sliced.first[slice - 1];
     std::vector<std::uint32_t> next(sliced.first.begin(), sliced.first.end() - 1);
-    sliced.height.resize(positions.size());
-    sliced.reach.resize(positions.size());
-    for (std::size_t k = 0; k < positions.size(); ++k) {
+    sliced.height.resize(samples.size());
+    sliced.reach.resize(samples.size());
+    sliced.area.resize(samples.size());
+    for (std::size_t k = 0; k < samples.size(); ++k) {
         const std::uint32_t place = next[slice_of[k]]++;
-        sliced.height[place] = positions[k].y;
-        sliced.reach[place] = horizontal.x * positions[k].x + horizontal.z * positions[k].z;
+        const vec3 position = samples[k].position;
+        sliced.height[place] = position.y;
+        sliced.reach[place] = horizontal.x * position.x + horizontal.z * position.z;
+        sliced.area[place] = samples[k].area;
     }
     return sliced;
 }
@@ -57,60 +68,74 @@ PlaneMap plane_map(const DirectionFrame& frame, vec3 horizontal) {
     return {frame.u.y, glm::dot(frame.u, horizontal), frame.w.y, glm::dot(frame.w, horizontal)};
 }
 
-/// How many fragments set a voxel: `coverage` of those that a surface across the rows leaves in one voxel's
-/// cross-section. A voxel that surfaces cover by less than half lets most rays pass. At least 1.
-int fragments_needed(const DirectionFrame& frame, double coverage, float cell_m) {
+/// The area that sets a voxel, in the units of SurfaceSample: `coverage` of its cross-section. 0: any does.
+int area_needed(const DirectionFrame& frame, double coverage, float cell_m) {
+    if (coverage == 0.0) return 0;
     const float cross_section_m2 = 1.0f / (glm::length(level_axis(frame)) * glm::length(frame.w));
-    return std::max(1, static_cast<int>(std::lround(coverage * cross_section_m2 / (cell_m * cell_m))));
+    return std::max(1, static_cast<int>(std::lround(area_units * coverage * cross_section_m2 / (cell_m * cell_m))));
 }
 
-/// Counts the slice's fragments in a byte a voxel: bytes[w * stride + u]. Coordinates lie in [0, N] by the fitted box.
-void count_fragments(const PlaneMap& map, std::span<const float> height, std::span<const float> reach, int resolution,
-                     int stride, std::uint8_t* bytes) {
+/// Adds up the areas of the samples of one slice, from `begin` on. Coordinates lie in [0, N] by the fitted box. A voxel
+/// that holds more than 255 stays there where `saturating`, and loses the rest of 256 where not, which is faster.
+template <bool saturating>
+void add_areas(const PlaneMap& map, const SlicedSamples& sliced, std::size_t begin, std::size_t end, int resolution,
+               SliceCounts& areas) {
     constexpr std::size_t batch = 64;
     alignas(64) std::array<int, batch> place;
     const float half = 0.5f * static_cast<float>(resolution), last = static_cast<float>(resolution) - 0.5f;
-    for (std::size_t begin = 0; begin < height.size(); begin += batch) {
-        const std::size_t count = std::min(batch, height.size() - begin);
-        const float* a = &height[begin];
-        const float* b = &reach[begin];
+    const int first_place = areas.place_of(0, 0), pitch = areas.pitch;
+    for (; begin < end; begin += batch) {
+        const std::size_t count = std::min(batch, end - begin);
+        const float* a = &sliced.height[begin];
+        const float* b = &sliced.reach[begin];
         for (std::size_t k = 0; k < count; ++k) {
             const float u = fused(map.u_height, a[k], fused(map.u_reach, b[k], half));
             const float w = fused(map.w_height, a[k], fused(map.w_reach, b[k], half));
             const float u_inside = u < 0.0f ? 0.0f : (u > last ? last : u);
             const float w_inside = w < 0.0f ? 0.0f : (w > last ? last : w);
-            place[k] = static_cast<int>(w_inside) * stride + static_cast<int>(u_inside);
+            place[k] = first_place + static_cast<int>(w_inside) * pitch + static_cast<int>(u_inside);
         }
-        for (std::size_t k = 0; k < count; ++k) ++bytes[place[k]];
+        const std::uint8_t* area = &sliced.area[begin];
+        std::uint8_t* bytes = areas.bytes.data();
+        for (std::size_t k = 0; k < count; ++k) {
+            const unsigned sum = bytes[place[k]] + unsigned{area[k]};
+            bytes[place[k]] = static_cast<std::uint8_t>(saturating ? std::min(sum, 255u) : sum);
+        }
     }
 }
 
-/// All directions of one theta: each slice is counted, packed, and stored as rows and, transposed, as its partner's.
-void splat_theta(RowArray& array, const RowShape& shape, std::span<const vec3> positions, int theta, double coverage,
-                 float cell_m) {
+/// All directions of one theta: each slice is added up, packed, and stored as rows and, transposed, as its partner's.
+void splat_theta(RowArray& array, const RowShape& shape, std::span<const SurfaceSample> samples, int theta,
+                 double coverage, float cell_m, const Progress& progress) {
     const RowGrid& grid = array.grid;
     const int n = grid.resolution, half = grid.angles / 2;
     const double angle = theta * std::numbers::pi / grid.angles;
     const vec3 horizontal(std::cos(angle), 0.0, std::sin(angle));
     const int first_direction = theta * grid.angles;
-    const SlicedFragments sliced =
-        slice_fragments(positions, shape, grid.frames[static_cast<std::size_t>(first_direction)], horizontal);
+    const SlicedSamples sliced =
+        slice_samples(samples, shape, grid.frames[static_cast<std::size_t>(first_direction)], horizontal);
     SliceBits bits(n), transposed(n);
-    std::vector<std::uint8_t> bytes(bits.marks());
+    SliceCounts areas(n);
     for (int v = 0; v < n; ++v) {
         const std::size_t begin = sliced.first[static_cast<std::size_t>(v)];
-        const std::size_t count = sliced.first[static_cast<std::size_t>(v) + 1] - begin;
-        if (count == 0) continue;  // the array starts out clear
+        const std::size_t end = sliced.first[static_cast<std::size_t>(v) + 1];
+        if (begin == end) continue;  // the array starts out clear
+        progress.check();            // a theta takes longer than whoever cancels wants to wait
+        const auto area_in_all =
+            std::accumulate(&sliced.area[begin], &sliced.area[begin] + (end - begin), std::uint64_t{0});
         for (int phi = 0; phi < half; ++phi) {
             const int direction = first_direction + phi;
             const DirectionFrame& frame = grid.frames[static_cast<std::size_t>(direction)];
             const DirectionFrame& partner = grid.frames[static_cast<std::size_t>(direction + half)];
-            count_fragments(plane_map(frame, horizontal), {&sliced.height[begin], count}, {&sliced.reach[begin], count},
-                            n, bits.stride(), bytes.data());
-            bits.pack(bytes, fragments_needed(partner, coverage, cell_m));
+            areas.clear();
+            add_areas<false>(plane_map(frame, horizontal), sliced, begin, end, n, areas);
+            if (areas.sum() != area_in_all) {  // a voxel overflowed: rare
+                areas.clear();
+                add_areas<true>(plane_map(frame, horizontal), sliced, begin, end, n, areas);
+            }
+            bits.pack(areas, 1, area_needed(partner, coverage, cell_m));
             transposed.transpose_of(bits);
-            bits.pack(bytes, fragments_needed(frame, coverage, cell_m));
-            std::fill(bytes.begin(), bytes.end(), std::uint8_t{0});
+            bits.pack(areas, 0, area_needed(frame, coverage, cell_m));
             store_slice(array, shape, direction, v, bits);
             store_slice(array, shape, direction + half, v, transposed);
         }
@@ -124,16 +149,34 @@ float fragment_cell_m(const RowGrid& grid, double samples_per_voxel) {
     return longest_m / static_cast<float>(grid.resolution * samples_per_voxel);
 }
 
-/// The fragments in an order that keeps neighbours apart: counting two in the same voxel one after the other would wait
-/// for the first to be stored.
-std::vector<Fragment> scattered(const std::vector<Fragment>& fragments) {
+/// The triangle's unit normal by its winding; zero where it has no area.
+vec3 winding_normal(const Scene& scene, std::uint32_t triangle) {
+    const uvec3 corners = scene.triangles[triangle];
+    const vec3 a = scene.positions[corners.x];
+    const vec3 normal = glm::cross(scene.positions[corners.y] - a, scene.positions[corners.z] - a);
+    const float length = glm::length(normal);
+    return length > 0.0f ? normal / length : vec3(0.0f);
+}
+
+/// The samples that the fragments stand for, those of solids `inset_m` below the surface. In an order that keeps
+/// neighbours apart: adding two to the same voxel one after the other would wait for the first to be stored.
+std::vector<SurfaceSample> surface_samples(const Scene& scene, const std::vector<Fragment>& fragments, vec3 centre,
+                                           float inset_m, float cell_m) {
     constexpr std::size_t apart = 64;
-    std::vector<Fragment> order;
-    order.reserve(fragments.size());
+    std::vector<SurfaceSample> samples;
+    samples.reserve(fragments.size());
     const std::size_t step = fragments.size() / apart + 1;
-    for (std::size_t first = 0; first < step; ++first)
-        for (std::size_t k = first; k < fragments.size(); k += step) order.push_back(fragments[k]);
-    return order;
+    for (std::size_t first = 0; first < step; ++first) {
+        for (std::size_t k = first; k < fragments.size(); k += step) {
+            const Fragment& fragment = fragments[k];
+            const bool solid = !scene.materials[scene.triangle_materials[fragment.triangle]].double_sided;
+            const vec3 inset = solid ? inset_m * winding_normal(scene, fragment.triangle) : vec3(0.0f);
+            const double area = area_units * fragment.area_m2 / (cell_m * cell_m);
+            samples.push_back({fragment.position - centre - inset,
+                               static_cast<std::uint8_t>(std::clamp(std::round(area), 1.0, 255.0))});
+        }
+    }
+    return samples;
 }
 
 }  // namespace
@@ -146,16 +189,16 @@ FragmentGrid fragment_grid(const RowGrid& grid, double samples_per_voxel) {
 RowArray build_from_fragments(const Scene& scene, const BuildOptions& options, Progress& progress) {
     RowArray array = allocate_array(scene, options);
     const auto start = std::chrono::steady_clock::now();
-    std::vector<vec3> positions;
     const FragmentGrid cells = fragment_grid(array.grid, options.samples_per_voxel);
-    for (const Fragment& fragment : scattered(surface_fragments(scene, cells, options.threads, progress)))
-        positions.push_back(fragment.position - array.grid.bounds.centre());
-    array.fragments = positions.size();
     const float cell_m = fragment_cell_m(array.grid, options.samples_per_voxel);
+    const auto inset_m = static_cast<float>(options.inset) * fragment_cell_m(array.grid, 1.0);
+    const std::vector<SurfaceSample> samples = surface_samples(
+        scene, surface_fragments(scene, cells, options.threads, progress), array.grid.bounds.centre(), inset_m, cell_m);
+    array.fragments = samples.size();
     progress.begin("splatting fragments into all directions", array.grid.angles);
     const RowShape shape = make_shape(array.grid);
     parallel_for(array.grid.angles, options.threads, [&](std::int64_t theta) {
-        splat_theta(array, shape, positions, static_cast<int>(theta), options.coverage, cell_m);
+        splat_theta(array, shape, samples, static_cast<int>(theta), options.coverage, cell_m, progress);
         progress.advance();
     });
     array.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

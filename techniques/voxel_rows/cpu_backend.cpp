@@ -33,7 +33,8 @@ using wide::Vec3;
 
 constexpr int tile_width = 64, tile_height = 64;  ///< pixels; a tile's sums and surfaces stay in the second-level cache
 constexpr float inverse_pi = 0.318309886f;
-constexpr std::size_t batch_vectors = 32;  ///< that go through a step together
+constexpr std::size_t batch_vectors = 32;             ///< that go through a step together
+constexpr std::uint32_t lights_between_checks = 256;  ///< whether to stop
 
 /// What is summed for each pixel of a tile.
 struct TileSums {
@@ -70,7 +71,8 @@ struct TileWork {
     RowShape query;
     std::span<const LightRecord> lights;
     const PixelGroups& pixels;
-    Verdicts* verdicts;  ///< may be null
+    Verdicts* verdicts;        ///< may be null
+    const Progress* progress;  ///< may be null
 };
 
 HWY_INLINE Vec3 load_three(const std::vector<float> (&axes)[3], std::size_t start) {
@@ -224,6 +226,7 @@ void ask_tile(const TileWork& work, TileSums& sums) {
     std::size_t current = 0;
     std::uint32_t light_before = 0;
     for (std::uint32_t light = 0; light < work.lights.size(); ++light) {
+        if (work.progress != nullptr && light % lights_between_checks == 0) work.progress->check();
         const LightRecord record = work.lights[light];
         for (std::size_t first = 0; first < vectors; first += batch_vectors) {
             Batch& now = batches[current];
@@ -271,8 +274,8 @@ std::vector<PixelRect> tiles_of(ImageSize size) {
 }
 
 TileWork tile_work(const RowArray& array, const RowShape& query, std::span<const LightRecord> lights,
-                   const PixelGroups& pixels, Verdicts* verdicts) {
-    return {{array.grid.frames.data()}, {array.words.words.data()}, query, lights, pixels, verdicts};
+                   const PixelGroups& pixels, Verdicts* verdicts, const Progress* progress) {
+    return {{array.grid.frames.data()}, {array.words.words.data()}, query, lights, pixels, verdicts, progress};
 }
 
 }  // namespace
@@ -309,7 +312,7 @@ QueryCount count_blocked_on_cpu(const RowArray& array, const RenderRequest& requ
     parallel_for(static_cast<std::int64_t>(tiles.size()), request.threads, [&](std::int64_t tile) {
         const PixelGroups pixels = group_pixels(*request.surfaces, tiles[static_cast<std::size_t>(tile)], 1, 0);
         TileSums sums(pixels.pixel.size(), false);
-        ask_tile<false>(tile_work(array, query, lights, pixels, nullptr), sums);
+        ask_tile<false>(tile_work(array, query, lights, pixels, nullptr, nullptr), sums);
         QueryCount& count = counts[static_cast<std::size_t>(tile)];
         for (const int asked : sums.asked) count.rays += static_cast<std::uint64_t>(asked);
         for (const int blocked : sums.blocked) count.blocked += static_cast<std::uint64_t>(blocked);
@@ -357,7 +360,7 @@ RenderResult render_on_cpu(const RowArray& array, const RenderRequest& request, 
             const PixelGroups pixels = group_pixels(surfaces, tile, pass.stride, pass.skip_stride);
             TileSums sums(pixels.pixel.size(), true);
             Verdicts* verdicts = request.keep_verdicts ? &result.verdicts : nullptr;
-            ask_tile<true>(tile_work(array, query, lights, pixels, verdicts), sums);
+            ask_tile<true>(tile_work(array, query, lights, pixels, verdicts, &progress), sums);
             {
                 const std::lock_guard lock(region_mutex);
                 resolve(pixels, sums, surfaces, result);

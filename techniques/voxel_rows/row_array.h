@@ -40,7 +40,8 @@ struct BuildOptions {
     int resolution = 128;
     double angle_step_deg = 2.0;
     double samples_per_voxel = 2.0;  ///< of the fragment grid, along each axis; Algorithm 6 only
-    double coverage = 0.35;  ///< of a voxel's cross-section that sets it; 0: any fragment does. Algorithm 6 only
+    double coverage = 0.5;  ///< of a voxel's cross-section that sets it; 0: any fragment does. Algorithm 6 only
+    double inset = 0.35;    ///< how far below the surface of solids the fragments lie, in voxels. Algorithm 6 only
     int threads = 0;
     /// Where the rows are to lie; empty: memory of our own.
     std::function<HugeBuffer(std::size_t words)> allocate;

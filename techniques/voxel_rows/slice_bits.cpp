@@ -2,10 +2,24 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
+
+// The build fixes the instruction set.
+#define HWY_COMPILE_ONLY_STATIC
+#include <hwy/highway.h>
 
 namespace sightlines::voxel_rows {
 namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+static_assert(std::endian::native == std::endian::little, "masks are stored byte by byte into 64-bit words");
+
+/// Lane by lane. Highway 1.0 compares unsigned bytes for equality only.
+template <class Vector>
+auto at_least(Vector a, Vector b) {
+    return hn::Eq(hn::Max(a, b), a);
+}
 
 /// Transposes 64 x 64 bits in place: swaps ever smaller off-diagonal squares (32, 16 ... 1).
 void transpose_64(std::array<std::uint64_t, 64>& rows) {
@@ -23,21 +37,33 @@ void transpose_64(std::array<std::uint64_t, 64>& rows) {
 
 }  // namespace
 
-void SliceBits::pack(std::span<const std::uint8_t> bytes, int needed) {
-    // Adding 128 - needed to a byte's lower seven bits carries into its top bit where they are at least `needed`.
-    constexpr std::uint64_t lower_bits = 0x7f7f7f7f7f7f7f7fu, one_each = 0x0101010101010101u;
-    const std::uint64_t carry = one_each * static_cast<std::uint64_t>(128 - std::min(needed, most_needed));
-    for (std::size_t word = 0; word < rows.size(); ++word) {
-        const std::uint8_t* marks = &bytes[word * 64];
-        std::uint64_t packed = 0;
-        for (unsigned group = 0; group < 8; ++group) {
-            std::uint64_t eight = 0;
-            std::memcpy(&eight, marks + 8 * group, sizeof eight);
-            eight = ((eight | ((eight & lower_bits) + carry)) >> 7u) & one_each;
-            // Eight bytes of 0 or 1 become eight neighbouring bits by one multiplication (no two products meet).
-            packed |= ((eight * 0x0102040810204080u) >> 56u) << (8 * group);
+std::uint64_t SliceCounts::sum() const {
+    const hn::CappedTag<std::uint8_t, 64> tag;
+    const hn::RepartitionToWide<hn::RepartitionToWide<hn::RepartitionToWide<decltype(tag)>>> sums_tag;
+    auto sums = hn::Zero(sums_tag);
+    for (std::size_t k = 0; k < bytes.size(); k += hn::Lanes(tag))  // whole vectors: the margin is one at least
+        sums = hn::Add(sums, hn::SumsOf8(hn::LoadU(tag, &bytes[k])));
+    return hn::GetLane(hn::SumOfLanes(sums_tag, sums));
+}
+
+void SliceBits::pack(const SliceCounts& counts, int axis, int needed) {
+    const hn::CappedTag<std::uint8_t, 64> tag;
+    const int lanes = static_cast<int>(hn::Lanes(tag)), step = axis == 0 ? 1 : counts.pitch;
+    const auto least = hn::Set(tag, static_cast<std::uint8_t>(std::min(needed, SliceCounts::most)));
+    auto* packed = reinterpret_cast<std::uint8_t*>(rows.data());
+    for (int w = 0; w < counts.side; ++w) {
+        for (int u = 0; u < counts.side; u += lanes) {
+            const std::uint8_t* place = &counts.bytes[static_cast<std::size_t>(counts.place_of(u, w))];
+            const auto own = hn::LoadU(tag, place);
+            auto set = hn::Ne(own, hn::Zero(tag));
+            if (needed > 0) {
+                const auto neighbour = hn::Max(hn::LoadU(tag, place - step), hn::LoadU(tag, place + step));
+                const auto with_neighbour =
+                    hn::And(at_least(own, neighbour), at_least(hn::SaturatedAdd(own, neighbour), least));
+                set = hn::And(set, hn::Or(at_least(own, least), with_neighbour));
+            }
+            packed += hn::StoreMaskBits(tag, set, packed);
         }
-        rows[word] = packed;
     }
 }
 
@@ -55,11 +81,15 @@ void SliceBits::transpose_of(const SliceBits& other) {
 
 void store_slice(RowArray& array, const RowShape& shape, int direction, int v, const SliceBits& bits) {
     const auto length = static_cast<std::size_t>(shape.words_per_row);
+    const scalar_kernel::Direction steps{direction / shape.angles, direction % shape.angles};
     for (int w = 0; w < shape.resolution; ++w) {
-        const std::size_t row =
-            scalar_kernel::row_index(shape, {direction / shape.angles, direction % shape.angles}, v, w);
-        std::memcpy(&array.words.words[row * length], &bits.rows[static_cast<std::size_t>(w) * bits.blocks],
-                    length * sizeof(std::uint32_t));
+        std::uint32_t* row = &array.words.words[scalar_kernel::row_index(shape, steps, v, w) * length];
+        const std::uint64_t* from = &bits.rows[static_cast<std::size_t>(w) * bits.blocks];
+        if (length == 4) {
+            std::memcpy(row, from, 4 * sizeof(std::uint32_t));  // a fixed size: one move, no call
+        } else {
+            std::memcpy(row, from, length * sizeof(std::uint32_t));
+        }
     }
 }
 

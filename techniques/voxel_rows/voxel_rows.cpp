@@ -16,7 +16,7 @@ using BuiltRowsPointer = std::shared_ptr<const BuiltRows>;
 
 constexpr std::array<std::string_view, 2> builds{"fragments", "direct"};
 
-constexpr std::array<Parameter, 9> parameters{{
+constexpr std::array<Parameter, 10> parameters{{
     {"resolution", "Resolution", "voxels", ParameterKind::integer, ParameterAffects::structure, 32, 256, 128, 128,
      "Voxels along each axis of each rotated voxelization; a row holds that many bits."},
     {"angle_step", "Angle step", "deg", ParameterKind::real, ParameterAffects::structure, 1, 6, 2, 2,
@@ -27,12 +27,17 @@ constexpr std::array<Parameter, 9> parameters{{
      builds},
     {"samples_per_voxel", "Samples per voxel", "", ParameterKind::real, ParameterAffects::structure, 0.5, 3, 2,
      std::nullopt, "Surface fragments along each voxel's edge, for the build from fragments."},
-    {"coverage", "Coverage", "", ParameterKind::real, ParameterAffects::structure, 0, 1, 0.35, 0.0,
-     "Share of a voxel's cross-section that surfaces must cover to set it; 0: any fragment sets it, as in the paper."},
-    {"start_offset", "Start offset along the row", "voxels", ParameterKind::real, ParameterAffects::picture, 0, 8, 1.75,
+    {"coverage", "Coverage", "", ParameterKind::real, ParameterAffects::structure, 0, 1, 0.5, 0.0,
+     "Share of a voxel's cross-section that surfaces in it and its neighbour along the row must cover to set it; 0: "
+     "any "
+     "fragment sets it, as in the paper."},
+    {"inset", "Inset", "voxels", ParameterKind::real, ParameterAffects::structure, 0, 1, 0.35, 0.0,
+     "How far below the surface of a solid (a one-sided material) its fragments lie, in voxels of the scene's longest "
+     "side."},
+    {"start_offset", "Start offset along the row", "voxels", ParameterKind::real, ParameterAffects::picture, 0, 8, 1.5,
      std::nullopt, "Voxels left out at the surface, which would otherwise shadow itself."},
     {"normal_offset", "Start offset along the normal", "voxels", ParameterKind::real, ParameterAffects::picture, 0, 4,
-     0.6, std::nullopt, "How far off the surface the ray starts, in voxels of the scene's longest side."},
+     0.4, std::nullopt, "How far off the surface the ray starts, in voxels of the scene's longest side."},
     {"light_offset", "Light-end offset", "voxels", ParameterKind::real, ParameterAffects::picture, 0, 8, 0.5,
      std::nullopt, "Voxels left out at the light."},
     {"subrays", "Rows per ray", "", ParameterKind::integer, ParameterAffects::picture, 1, 2, 1, 1,
@@ -50,6 +55,7 @@ Structure build(const BuildRequest& request, Progress& progress) {
     options.angle_step_deg = value("angle_step");
     options.samples_per_voxel = value("samples_per_voxel");
     options.coverage = value("coverage");
+    options.inset = value("inset");
     options.threads = request.threads;
     auto built = std::make_shared<BuiltRows>();
     built->array = value("build") == 0.0 ? build_from_fragments(*request.scene, options, progress)

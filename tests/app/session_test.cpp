@@ -50,6 +50,21 @@ View random_view(Draw& draw) {
     return view;
 }
 
+Workbench random_workbench(Draw& draw) {
+    Workbench look;
+    look.theme = static_cast<Theme>(draw.whole(0, 1));
+    look.text_scale = draw.between(0.5f, 3.0f);
+    look.layout.main_width = draw.between(0.05f, 0.95f);
+    look.layout.lower_middle = draw.between(0.05f, 0.95f);
+    for (PaneContent& content : look.layout.panes) content = static_cast<PaneContent>(draw.whole(0, 5));
+    if (draw.coin()) look.layout.maximised = static_cast<PanePlace>(draw.whole(0, 5));
+    look.fit_picture = draw.coin();
+    look.sorted_by = static_cast<RayColumn>(draw.whole(0, 4));
+    look.descending = draw.coin();
+    look.lights_shown = draw.coin();
+    return look;
+}
+
 Session random_session(std::uint32_t number) {
     Draw draw{number};
     Session session;
@@ -64,8 +79,14 @@ Session random_session(std::uint32_t number) {
         session.free_camera->kind = static_cast<CameraKind>(draw.whole(0, 1));
     }
     session.size = {draw.whole(1, 4096), draw.whole(1, 4096)};
-    session.lights = {static_cast<std::uint32_t>(draw.whole(0, 65536)), static_cast<LightPlacement>(draw.whole(0, 1)),
-                      draw.coin(), draw.coin(), draw.between(0, 10)};
+    session.lights = {static_cast<std::uint32_t>(draw.whole(0, 65536)),
+                      static_cast<LightPlacement>(draw.whole(0, 1)),
+                      draw.coin(),
+                      draw.coin(),
+                      draw.between(0, 10),
+                      {}};
+    for (int moved = draw.whole(0, 3); moved > 0; --moved)
+        session.lights.moved.push_back({static_cast<std::uint32_t>(draw.whole(0, 65535)), draw.point()});
     for (const Technique& technique : techniques()) {
         ParameterValues values = random_parameters(technique, draw);
         if (!values.empty()) session.parameters[std::string(technique.name)] = std::move(values);
@@ -79,7 +100,8 @@ Session random_session(std::uint32_t number) {
     session.selection.step = static_cast<std::uint32_t>(draw.whole(0, 40));
     for (int view = draw.whole(0, 3); view > 0; --view) session.views.push_back(random_view(draw));
     session.display = {draw.between(-8, 8), draw.coin()};
-    session.channel = static_cast<Channel>(draw.whole(0, 5));
+    session.channel = static_cast<Channel>(draw.whole(0, 6));
+    session.workbench = random_workbench(draw);
     return session;
 }
 
@@ -103,6 +125,15 @@ TEST(Session, ComesBackTheSameFromItsOwnText) {
         const std::string text = json_from_session(session).dump();
         ASSERT_EQ(session_from_json(Json::parse(text), "here"), session) << text;
     }
+}
+
+TEST(Session, RefusesAWorkbenchThatCannotBeShown) {
+    EXPECT_NE(refusal({{"workbench", {{"theme", "print"}}}}).find("/workbench/theme"), std::string::npos);
+    EXPECT_NE(refusal({{"workbench", {{"layout", {{"side", "clock"}}}}}}).find("/workbench/layout/side"),
+              std::string::npos);
+    EXPECT_NE(refusal({{"workbench", {{"layout", {{"maximised", "none"}}}}}}).find("maximised"), std::string::npos);
+    EXPECT_NE(refusal({{"workbench", {{"layout", {{"main_width", 1.5}}}}}}).find("main_width"), std::string::npos);
+    EXPECT_NE(refusal({{"lights", {{"moved", {{{"light", -1}}}}}}}).find("/lights/moved/0/light"), std::string::npos);
 }
 
 TEST(Session, DiffersWhereOneFieldDiffers) {

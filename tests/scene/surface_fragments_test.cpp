@@ -103,6 +103,21 @@ std::vector<Cell> cells_of(const FragmentGrid& grid, const std::vector<Fragment>
     return cells;
 }
 
+TEST(SurfaceFragments, ShareOutTheAreaOfAllTriangles) {
+    for (const float size : {0.3f, 2.0f, 12.0f}) {  // of cells of 1 m: many to a cell, and many cells to one
+        const Scene scene = random_triangles(500, 16.0f, size, 8);
+        double area = 0.0, shared_out = 0.0;
+        for (const uvec3& triangle : scene.triangles) {
+            const vec3 a = scene.positions[triangle.x];
+            area += 0.5 * static_cast<double>(glm::length(
+                              glm::cross(scene.positions[triangle.y] - a, scene.positions[triangle.z] - a)));
+        }
+        for (const Fragment& fragment : fragments_of(scene, unit_cells(ivec3(16))))
+            shared_out += static_cast<double>(fragment.area_m2);
+        EXPECT_NEAR(shared_out / area, 1.0, 1e-4) << size;
+    }
+}
+
 }  // namespace
 
 TEST(SurfaceFragments, HoldEveryPixelCentreThatTheNaiveReferenceFinds) {

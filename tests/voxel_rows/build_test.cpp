@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "techniques/scene/surface_fragments.h"
+#include "techniques/voxel_rows/query.h"
 #include "techniques/voxel_rows/row_array.h"
 #include "techniques/voxel_rows/slice_bits.h"
 #include "techniques/voxel_rows/voxel_rows.h"
@@ -192,21 +193,97 @@ TEST(VoxelRowsBuild, MakesAClearArrayOfASceneWithoutTriangles) {
     EXPECT_EQ(set_bits(array.words.words), 0u);
 }
 
-TEST(SliceBits, PacksCountsOfAtLeastWhatIsNeededAndTransposes) {
+/// A wall of 2.7 m in a box of 4 m, across `normal`, its middle at `centre`.
+Scene wall_across(vec3 normal, vec3 centre, bool double_sided) {
+    Scene scene;
+    const vec3 other = std::abs(normal.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0);
+    const vec3 a = 1.35f * glm::normalize(glm::cross(normal, other)), b = glm::cross(normal, a);
+    testing::add_triangle(scene, centre - a - b, centre + a - b, centre + a + b);
+    testing::add_triangle(scene, centre - a - b, centre + a + b, centre - a + b);
+    scene.bounds.add(vec3(-2.0f));
+    scene.bounds.add(vec3(2.0f));
+    scene = testing::finished(scene);
+    scene.materials[0].double_sided = double_sided;
+    return scene;
+}
+
+/// Rays that a wall lets pass, of `count` through its middle, at up to 75 degrees from its normal.
+int leaks(const RowArray& array, vec3 normal, vec3 centre, std::uint32_t count, int& asked) {
+    const RowShape query = make_query(array, {}, {});
+    int leaking = 0;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const vec3 direction = sphere_direction(random_unit(31, k, 0), random_unit(31, k, 1));
+        if (std::abs(glm::dot(direction, normal)) < 0.26f) continue;
+        const vec3 off = 0.4f * sphere_direction(random_unit(32, k, 0), random_unit(32, k, 1));
+        const vec3 through = centre + off - glm::dot(off, normal) * normal;
+        const Segment ray{through - (0.6f + 0.5f * random_unit(33, k, 0)) * direction,
+                          through + (0.6f + 0.5f * random_unit(33, k, 1)) * direction};
+        leaking += !is_blocked(array, query, ray, vec3(0.0f));
+        ++asked;
+    }
+    return leaking;
+}
+
+TEST(VoxelRowsBuild, LeavesNoHoleInAWallWhereverItStraddlesTheVoxels) {
+    Progress progress;
+    int asked = 0;
+    for (std::uint32_t k = 0; k < 24; ++k) {  // a voxel is 83 mm wide: offsets of all parts of one
+        vec3 normal(0.0f), centre(0.0f);
+        normal[static_cast<int>(k % 3)] = 1.0f;
+        centre[static_cast<int>(k % 3)] = 0.0104f * static_cast<float>(k);
+        const RowArray array = build_from_fragments(wall_across(normal, centre, k % 2 == 0), small_build(), progress);
+        EXPECT_EQ(leaks(array, normal, centre, 4000, asked), 0) << "wall " << k;
+    }
+    EXPECT_GT(asked, 60000);
+}
+
+TEST(VoxelRowsBuild, LeavesNoHoleInAWallTiltedAnyWay) {
+    Progress progress;
+    int asked = 0;
+    for (std::uint32_t k = 0; k < 36; ++k) {  // a third of them by up to 10 degrees only
+        vec3 normal = sphere_direction(random_unit(34, k, 0), random_unit(34, k, 1));
+        if (k % 3 == 0) normal = glm::normalize(vec3(1, 0, 0) + 0.17f * random_unit(34, k, 5) * normal);
+        const vec3 centre = 0.2f * vec3(random_unit(34, k, 2), random_unit(34, k, 3), random_unit(34, k, 4));
+        const RowArray array = build_from_fragments(wall_across(normal, centre, k % 2 == 0), small_build(), progress);
+        EXPECT_EQ(leaks(array, normal, centre, 4000, asked), 0) << "wall " << k;
+    }
+    EXPECT_GT(asked, 90000);
+}
+
+TEST(SliceBits, SetsWhatHoldsEnoughAloneOrWithAnEmptierNeighbourAndTransposes) {
     for (const int n : {32, 64, 100, 128, 256}) {
         SliceBits bits(n), transposed(n);
-        std::vector<std::uint8_t> marks(bits.marks());
-        for (std::size_t k = 0; k < marks.size(); ++k)
-            marks[k] = static_cast<std::uint8_t>(random_u32(3, static_cast<std::uint32_t>(k), 0));
-        const int needed = 1 + static_cast<int>(random_u32(4, static_cast<std::uint32_t>(n), 0) % 128u);
-        bits.pack(marks, needed);
-        transposed.transpose_of(bits);
-        const auto stride = static_cast<std::size_t>(bits.stride()), blocks = static_cast<std::size_t>(bits.blocks);
-        for (std::size_t w = 0; w < stride; ++w) {
-            for (std::size_t u = 0; u < stride; ++u) {
-                ASSERT_EQ((bits.rows[w * blocks + u / 64] >> (u % 64)) & 1u, marks[w * stride + u] >= needed ? 1u : 0u);
-                ASSERT_EQ((transposed.rows[u * blocks + w / 64] >> (w % 64)) & 1u,
-                          marks[w * stride + u] >= needed ? 1u : 0u);
+        SliceCounts counts(n);
+        std::uint64_t sum = 0;
+        for (int w = 0; w < n; ++w) {
+            for (int u = 0; u < n; ++u) {
+                const std::uint32_t value = random_u32(3, static_cast<std::uint32_t>(w * n + u), 0) % 256u;
+                counts.bytes[static_cast<std::size_t>(counts.place_of(u, w))] = static_cast<std::uint8_t>(value);
+                sum += value;
+            }
+        }
+        EXPECT_EQ(counts.sum(), sum);
+        const auto at = [&](int u, int w) {
+            const bool inside = u >= 0 && w >= 0 && u < n && w < n;
+            return inside ? int{counts.bytes[static_cast<std::size_t>(counts.place_of(u, w))]} : 0;
+        };
+        const auto blocks = static_cast<std::size_t>(bits.blocks);
+        for (const int needed : {0, 1, 100, 255}) {
+            for (const int axis : {0, 1}) {
+                bits.pack(counts, axis, needed);
+                transposed.transpose_of(bits);
+                for (int w = 0; w < n; ++w) {
+                    for (int u = 0; u < n; ++u) {
+                        const int own = at(u, w);
+                        const int neighbour =
+                            axis == 0 ? std::max(at(u - 1, w), at(u + 1, w)) : std::max(at(u, w - 1), at(u, w + 1));
+                        const bool together = own >= neighbour && own + neighbour >= needed;
+                        const auto set = static_cast<std::uint64_t>(own > 0 && (own >= needed || together));
+                        const auto row = static_cast<std::size_t>(w), column = static_cast<std::size_t>(u);
+                        ASSERT_EQ((bits.rows[row * blocks + column / 64] >> (column % 64)) & 1u, set);
+                        ASSERT_EQ((transposed.rows[column * blocks + row / 64] >> (row % 64)) & 1u, set);
+                    }
+                }
             }
         }
     }

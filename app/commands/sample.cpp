@@ -1,5 +1,7 @@
 #include <filesystem>
 
+#include <CLI/CLI.hpp>
+
 #include "app/commands/commands.h"
 #include "app/commands/figure.h"
 #include "app/commands/render.h"
@@ -13,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* what_to_try =
-    "\nThere is no window here. Try:\n"
+    "\nTry:\n"
+    "  sightlines                   (the window, where there is a display)\n"
     "  sightlines list scenes\n"
     "  sightlines render --scene trees --lights 256 --size 640x360 --reference --out trees.png\n"
     "  sightlines trace --scene atrium --lights 1024 --pixel 480,300\n"
@@ -21,7 +24,7 @@ constexpr const char* what_to_try =
     "  sightlines bench shadow-rays --scene atrium\n"
     "  sightlines --help\n";
 
-CommandOutput run_main_job(Progress& progress) {
+CommandOutput run_sample(Progress& progress) {
     const fs::path folder = "out";
     make_folder(folder);
     Session session;
@@ -51,6 +54,10 @@ CommandOutput run_main_job(Progress& progress) {
 
 }  // namespace
 
-Command main_job() { return {run_main_job, false}; }
+void add_sample_command(CLI::App& app, Command& chosen) {
+    CLI::App& command = *app.add_subcommand("sample", "Make a picture, a view inside and a ray's trace into out/");
+    command.footer("Example:\n  sightlines sample");
+    command.callback([&chosen] { chosen = {run_sample, false}; });
+}
 
 }  // namespace sightlines

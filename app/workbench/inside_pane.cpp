@@ -1,0 +1,127 @@
+// The view inside: VTK's picture from its own thread, turned by the mouse; a click selects the step that touched it.
+#include <cmath>
+
+#include "app/workbench/panes.h"
+#include "app/workbench/widgets.h"
+
+namespace sightlines {
+namespace {
+
+constexpr float click_slack = 4.0f;  // design pixels that a click may move
+constexpr float wheel_step = 1.12f;
+
+/// All geometry that the steps of the ray recorded.
+std::vector<TraceGeometry> recorded_geometry(std::span<const TraceStep> steps) {
+    std::vector<TraceGeometry> all;
+    for (const TraceStep& step : steps) all.insert(all.end(), step.geometry.begin(), step.geometry.end());
+    return all;
+}
+
+/// Goes to the first step that recorded a geometry of that name.
+void go_to_geometry(Frame& frame, const std::string& name) {
+    const auto steps = recorded_steps(frame);
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        if (std::ranges::find(steps[i].geometry, name, &TraceGeometry::name) != steps[i].geometry.end())
+            return go_to_step(frame, static_cast<std::int64_t>(i));
+}
+
+void pick_at(Frame& frame, const InsideShown& held, vec2 pixel) {
+    const auto geometry = recorded_geometry(recorded_steps(frame));
+    const PickedInside picked = pick(*held.request.picture, held.request.state, geometry, held.request.size, pixel);
+    frame.next.selection.voxel = picked.voxel;
+    if (!picked.geometry.empty()) go_to_geometry(frame, picked.geometry);
+}
+
+void handle_mouse(Frame& frame, const Area& body, const InsideShown& held) {
+    const ImGuiIO& io = ImGui::GetIO();
+    ImGui::SetCursorScreenPos(to_imgui(body.corner));
+    ImGui::InvisibleButton(
+        "view", to_imgui(body.size),
+        ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+    const vec2 mouse = from_imgui(io.MousePos), delta = from_imgui(io.MouseDelta);
+    if (ImGui::IsItemActivated()) frame.ui.press = mouse;
+    const float slack = click_slack * frame.scale;
+    ViewState state = inside_state(frame.next);
+    // The camera as drawn last; while the mouse drags, as asked for last.
+    const OrbitCamera camera = state.camera.value_or(held.camera);
+    if (ImGui::IsItemActive()) {
+        frame.in_gesture = true;
+        if (delta != vec2(0.0f) && glm::distance(mouse, frame.ui.press) > slack) {
+            const bool pan = io.KeyShift || !ImGui::IsMouseDown(ImGuiMouseButton_Left);
+            state = pan ? panned(state, camera, delta, static_cast<int>(body.size.y))
+                        : turned(state, camera, delta / body.size.y * 180.0f);
+        }
+    }
+    if (ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
+        glm::distance(mouse, frame.ui.press) <= slack)
+        pick_at(frame, held, mouse - body.corner);
+    if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) {
+        state = zoomed(state, camera, std::pow(wheel_step, io.MouseWheel));
+        frame.in_gesture = true;
+    }
+    set_inside_state(frame.next, state);
+}
+
+void draw_options(Frame& frame) {
+    ViewState state = inside_state(frame.next);
+    toggle(frame, "Scene, ghosted", state.scene);
+    toggle(frame, "Voxels", state.voxels);
+    toggle(frame, "Row", state.row);
+    toggle(frame, "Extent [s, e]", state.extent);
+    toggle(frame, "Ray", state.ray);
+    toggle(frame, "Its discretised twin", state.twin);
+    toggle(frame, "Labels and legend", state.labels);
+    bool cut = state.cut_away == CutAway::to_row;
+    if (toggle(frame, "Cut open along the row", cut)) state.cut_away = cut ? CutAway::to_row : CutAway::none;
+    const float width = 200.0f * frame.scale;
+    ImGui::SetNextItemWidth(width);
+    ImGui::SliderInt("##slab", &state.slab_voxels, 1, 128, "%d layers behind the row", ImGuiSliderFlags_AlwaysClamp);
+    if (ImGui::IsItemActive()) frame.in_gesture = true;
+    int resolution = 128;
+    if (frame.shown.inside)
+        std::visit([&](const auto& picture) { resolution = picture.resolution; }, *frame.shown.inside);
+    int first = state.slice_first, last = std::min(state.slice_last, resolution - 1);
+    ImGui::SetNextItemWidth(width);
+    if (ImGui::DragIntRange2("##slice", &first, &last, 0.5f, 0, resolution - 1, "from voxel %d", "to %d",
+                             ImGuiSliderFlags_AlwaysClamp)) {
+        state.slice_first = first;
+        state.slice_last = last;
+    }
+    if (ImGui::IsAnyItemActive()) frame.in_gesture = true;
+    tooltip(frame, "Slice along the row: only these voxels are drawn");
+    set_inside_state(frame.next, state);
+}
+
+}  // namespace
+
+void draw_inside(Frame& frame, const Area& body) {
+    if (!frame.inside_failure.empty())
+        return empty_pane_text(frame, "The view inside cannot be drawn", frame.inside_failure);
+    if (!frame.inside) {
+        if (frame.shown.ray_failure)
+            return empty_pane_text(frame, "No ray is selected", frame.shown.ray_failure->message);
+        return empty_pane_text(frame, "The inside of the technique appears here",
+                               "As soon as its structure is built: the data that serves the selected ray, in space.");
+    }
+    if (frame.textures.inside_held != frame.inside) {
+        upload(frame.window, frame.textures.inside, frame.inside->pixels);
+        frame.textures.inside_held = frame.inside;
+    }
+    draw_texture(frame.window, *ImGui::GetWindowDrawList(), frame.textures.inside, to_imgui(body.corner),
+                 to_imgui(body.size));
+    handle_mouse(frame, body, *frame.inside);
+}
+
+void draw_inside_controls(Frame& frame, float right) {
+    if (right - ImGui::GetCursorPosX() < 128.0f * frame.scale) return;
+    if (menu_button(frame, "show", "Show")) {
+        draw_options(frame);
+        ImGui::EndPopup();
+    }
+    tooltip(frame, "What the view shows");
+    ImGui::SameLine();
+    if (icon_button(frame, "reframe", Icon::frame)) set_inside_state(frame.next, reframed(inside_state(frame.next)));
+    tooltip(frame, "Turn the view back to the row", "F");
+}
+
+}  // namespace sightlines
