@@ -10,7 +10,7 @@ packages=(
     # drivers and fonts that the program looks for when it runs
     mesa-vulkan-drivers libgl1-mesa-dri libegl1 fonts-inter fonts-jetbrains-mono fonts-dejavu-core
     # for tests: shader and API checks, a display, keys and clicks on it, pictures to compare
-    vulkan-validationlayers xvfb xdotool imagemagick
+    vulkan-validationlayers xvfb xdotool x11-utils imagemagick
 )
 
 # Prints those of `packages` that are not installed.

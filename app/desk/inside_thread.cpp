@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int niceness = 5;  ///< after the window, before the pictures that are made in the background
+constexpr int niceness = 3;  ///< after the window, before the pictures that are made in the background
 constexpr int fast_samples = 1, sharp_samples = 2;
 constexpr auto still = std::chrono::milliseconds(150);  ///< without a new request: the mouse rests
 

@@ -9,7 +9,7 @@
 namespace sightlines {
 namespace {
 
-constexpr int niceness = 15;
+constexpr int niceness = 10;
 constexpr int draft_divisor = 4, least_draft_width = 160;
 constexpr std::size_t most_preview_lights = 16;
 constexpr auto while_retired = std::chrono::milliseconds(100);

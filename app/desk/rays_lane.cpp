@@ -8,7 +8,7 @@
 namespace sightlines {
 namespace {
 
-constexpr int niceness = 10;  ///< before the picture's threads: this lane's work is short, and somebody waits for it
+constexpr int niceness = 6;  ///< before the picture's threads: this lane's work is short, and somebody waits for it
 
 struct RaysLane {
     Background::Objects& objects;

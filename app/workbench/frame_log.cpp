@@ -23,7 +23,8 @@ void log_frame(FrameLog& log, std::chrono::steady_clock::time_point start, const
     std::string quoted = working;
     std::ranges::replace(quoted, '"', '\'');
     log.file << log.frames++ << ',' << fixed_text(seconds(start - log.began), 4) << ','
-             << fixed_text(1.0e3 * seconds(std::chrono::steady_clock::now() - start), 3) << ",\"" << quoted << "\"\n";
+             << fixed_text(1.0e3 * seconds(std::chrono::steady_clock::now() - start), 3) << ",\"" << quoted << '"'
+             << std::endl;
 }
 
 }  // namespace sightlines

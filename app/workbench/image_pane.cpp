@@ -57,11 +57,11 @@ void draw_picture(Frame& frame, const Placed& where) {
         upload(frame.window, frame.textures.image, picture.pixels);
         frame.textures.image_number = picture.number;
     }
-    const bool magnified = where.area.size.x > 2.5f * static_cast<float>(picture.pixels.size.width) &&
-                           picture.state == PictureState::complete;
+    const float zoom = where.area.size.x / static_cast<float>(picture.pixels.size.width);
+    // Pixel for pixel there is nothing to filter, and much enlarged a pixel is to be seen.
+    const bool exact = zoom == 1.0f || (zoom > 2.5f && picture.state == PictureState::complete);
     draw_texture(frame.window, *ImGui::GetWindowDrawList(), frame.textures.image, to_imgui(where.area.corner),
-                 to_imgui(where.area.size), {0.0f, 0.0f}, {1.0f, 1.0f},
-                 magnified ? Sampling::nearest : Sampling::linear);
+                 to_imgui(where.area.size), {0.0f, 0.0f}, {1.0f, 1.0f}, exact ? Sampling::nearest : Sampling::linear);
 }
 
 /// Text on a small plate that keeps it readable on any picture. `anchor` 0 to 1: which point of the plate is at `at`.

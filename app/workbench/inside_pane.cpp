@@ -107,8 +107,10 @@ void draw_inside(Frame& frame, const Area& body) {
         upload(frame.window, frame.textures.inside, frame.inside->pixels);
         frame.textures.inside_held = frame.inside;
     }
+    const ImageSize drawn = frame.inside->request.size;
+    const bool exact = vec2(drawn.width, drawn.height) == body.size;
     draw_texture(frame.window, *ImGui::GetWindowDrawList(), frame.textures.inside, to_imgui(body.corner),
-                 to_imgui(body.size));
+                 to_imgui(body.size), {0.0f, 0.0f}, {1.0f, 1.0f}, exact ? Sampling::nearest : Sampling::linear);
     handle_mouse(frame, body, *frame.inside);
 }
 

@@ -73,12 +73,19 @@ void draw_header(Frame& frame, PanePlace place, PaneContent content, const Area&
     ImGui::End();
 }
 
+/// The ground of a pane's body; none where its picture covers it: a software device pays for each pixel.
+ImU32 ground_of(const Frame& frame, PaneContent content) {
+    if (content == PaneContent::image)
+        return frame.shown.picture && frame.session.workbench.fit_picture ? 0 : frame.colours.page;
+    if (content == PaneContent::inside) return frame.inside ? 0 : frame.colours.page;
+    return frame.colours.pane;
+}
+
 void draw_body(Frame& frame, PanePlace place, PaneContent content, const Area& body) {
     const bool picture = content == PaneContent::image || content == PaneContent::inside;
     const vec2 padding = picture || content == PaneContent::source ? vec2(0.0f) : vec2(12.0f, 8.0f);
-    begin_area(frame, ("body " + std::to_string(static_cast<int>(place))).c_str(), body,
-               picture ? frame.colours.page : frame.colours.pane, padding, Layer::behind,
-               picture ? ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse : 0);
+    begin_area(frame, ("body " + std::to_string(static_cast<int>(place))).c_str(), body, ground_of(frame, content),
+               padding, Layer::behind, picture ? ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse : 0);
     switch (content) {
         case PaneContent::image:
             draw_image(frame, body);

@@ -34,7 +34,7 @@ const char* error_text(const RayRow& row, bool narrow) {
 }
 
 /// Design pixels below which the table is narrow.
-constexpr float narrow_width = 340.0f;
+constexpr float narrow_width = 320.0f;
 
 /// Rows in the order that the session asks for; equal ones by light.
 std::vector<std::size_t> sorted_rows(const PixelRays& rays, RayColumn column, bool descending) {

@@ -87,7 +87,7 @@ void empty_pane_text(const Frame& frame, const std::string& title, const std::st
     };
     std::vector<Line> lines;
     const auto add = [&](ImFont* font, const std::string& text) {
-        const float letters = width / width_of(font, "n");
+        const float letters = width / (0.87f * width_of(font, "n"));  // most are narrower
         for (const std::string& line : wrapped(text, static_cast<std::size_t>(std::max(letters, 8.0f))))
             lines.push_back({font, line});
     };
