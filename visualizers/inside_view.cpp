@@ -80,6 +80,14 @@ ImageRgba8 render(InsideView& view, const InsidePicture& picture, const ViewStat
     return finished_picture(canvas);
 }
 
+TraceGeometry voxel_box(const InsidePicture& picture, ivec3 voxel) {
+    const VoxelRowPicture& rows = std::get<VoxelRowPicture>(picture);
+    const mat4& world = rows.world_from_voxels;
+    std::string name = "voxel " + std::to_string(voxel.x);
+    for (const int index : {voxel.y, voxel.z}) name.append(", ").append(std::to_string(index));
+    return {name, TraceShape::box, {world_point(rows, vec3(voxel)), vec3(world[0]), vec3(world[1]), vec3(world[2])}};
+}
+
 PickedInside pick(const InsidePicture& picture, const ViewState& state, std::span<const TraceGeometry> recorded,
                   ImageSize size, vec2 pixel) {
     const ViewCamera camera = view_camera(shown_camera(picture, state, size), size);

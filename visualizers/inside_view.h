@@ -48,6 +48,9 @@ ImageRgba8 render(InsideView& view, const InsidePicture& picture, const ViewStat
 /// Whether both are the same solid part: drawing one after the other draws only the marks anew.
 bool same_solid(const InsidePicture& a, const InsidePicture& b);
 
+/// A cell of the technique's own data as a box to be lit, with its place for a name.
+TraceGeometry voxel_box(const InsidePicture& picture, ivec3 voxel);
+
 /// What lies under a pixel of the view.
 struct PickedInside {
     std::optional<ivec3> voxel;  ///< in the technique's own cells

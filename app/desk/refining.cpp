@@ -6,7 +6,7 @@
 namespace sightlines {
 namespace {
 
-constexpr auto between_pictures = std::chrono::milliseconds(33);
+constexpr auto between_pictures = std::chrono::milliseconds(80);  // each costs the window a frame
 
 Session view_key(const Session& session) {
     Session key = reference_part(session);

@@ -68,8 +68,7 @@ void install_callbacks(GLFWwindow* window) {
 }
 
 bool something_happened(WindowInput& input) {
-    if (input.woken.exchange(false)) input.events.any_input = true;
-    return input.events.any_input;
+    return input.woken.exchange(false) || input.events.any_input;
 }
 
 /// Design pixels as pixels of the first monitor, no more than it has room for.

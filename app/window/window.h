@@ -52,7 +52,7 @@ struct KeyPress {
 /// What happened since the last frame that ImGui does not tell.
 struct WindowEvents {
     bool closing = false;        ///< the user wants to leave
-    bool any_input = false;      ///< mouse, keyboard, resize, expose, `wake`
+    bool any_input = false;      ///< mouse, keyboard, resize, expose; not `wake`
     std::vector<KeyPress> keys;  ///< in order; those typed into a field too (io.WantTextInput)
     std::vector<std::filesystem::path> dropped_files;
 };

@@ -163,7 +163,7 @@ void draw_step_bar(Frame& frame, const Area& area) {
     const float room = area.size.x - ImGui::GetCursorPosX() - 12.0f * frame.scale;
     if (steps.empty()) {
         const std::string why = frame.shown.ray_failure
-                                    ? frame.shown.ray_failure->message
+                                    ? ray_failure_text(frame)
                                     : "Click a point of the image to follow a ray through the kernel.";
         elided_text(frame.fonts.text, frame.colours.muted, why, room);
     } else {
@@ -232,7 +232,8 @@ void draw_status_bar(Frame& frame, const Area& area) {
     const std::string text = elided(frame.fonts.small, measured_text(frame.shown.measured), std::max(room, 0.0f));
     ImGui::SetCursorPosY(0.5f * (area.size.y - frame.fonts.small->FontSize));
     text_right(frame.fonts.small, frame.colours.ink, text, area.size.x - 12.0f * frame.scale);
-    tooltip(frame, measured_text(frame.shown.measured) + "\n" + frame.shown.measured.device);
+    tooltip(frame, measured_text(frame.shown.measured) + "\nRendered by " + frame.shown.measured.device +
+                       "\nWindow drawn by " + std::string(device_name(frame.window)));
     ImGui::End();
 }
 

@@ -21,7 +21,7 @@ void set_inside_state(Session& session, const ViewState& state) {
 }
 
 std::span<const TraceStep> recorded_steps(const Frame& frame) {
-    if (!frame.shown.ray) return {};
+    if (!frame.shown.ray || frame.shown.ray_failure) return {};
     return frame.shown.ray->trace.steps;
 }
 
@@ -40,6 +40,13 @@ bool ray_is_current(const Frame& frame) {
     const Selection& selected = frame.session.selection;
     return frame.shown.ray && (!selected.pixel || *selected.pixel == frame.shown.ray->pixel) &&
            (!selected.light || *selected.light == frame.shown.ray->light);
+}
+
+std::string ray_failure_text(const Frame& frame) {
+    if (!frame.shown.ray_failure) return {};
+    // The command line's flags mean nothing here.
+    const std::string& message = frame.shown.ray_failure->message;
+    return message.starts_with("--") ? message.substr(message.find(": ") + 2) : message;
 }
 
 void select_pixel(Frame& frame, ivec2 pixel) {

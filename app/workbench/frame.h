@@ -76,13 +76,15 @@ struct Frame {
 ViewState inside_state(const Session& session);
 void set_inside_state(Session& session, const ViewState& state);
 
-/// The recorded steps of the ray that is selected; empty until it has been recorded.
+/// The recorded steps of the ray that is selected; empty until it has been recorded, and where there is none.
 std::span<const TraceStep> recorded_steps(const Frame& frame);
 /// The step as it is chosen by now in this frame, kept inside the steps that there are. Meaningless without steps.
 std::size_t current_step(const Frame& frame);
 void go_to_step(Frame& frame, std::int64_t step);
 /// The ray that is shown belongs to the session's selection (and not to the one before it).
 bool ray_is_current(const Frame& frame);
+/// Why the selected pixel has no ray to show; empty where it has.
+std::string ray_failure_text(const Frame& frame);
 void select_pixel(Frame& frame, ivec2 pixel);
 void select_light(Frame& frame, std::uint32_t light);
 

@@ -86,12 +86,12 @@ void ring(ImDrawList& list, vec2 at, float radius, float width, ImU32 colour) {
 
 /// The picked pixel, the selected light and the ray between them, as they appear in the picture.
 void draw_selection(const Frame& frame, const Placed& where, const std::optional<vec2>& light) {
-    if (!frame.shown.ray) return;
+    if (!frame.shown.ray && !frame.session.selection.pixel) return;
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const ivec2 pixel = frame.session.selection.pixel.value_or(frame.shown.ray->pixel);
+    const ivec2 pixel = frame.session.selection.pixel ? *frame.session.selection.pixel : frame.shown.ray->pixel;
     const vec2 at = where.window_from_picture(vec2(pixel) + 0.5f);
     const float unit = frame.scale;
-    if (light && ray_is_current(frame)) {
+    if (light && !frame.shown.ray_failure && ray_is_current(frame)) {
         const Palette view_colours = palette(Theme::dark);
         list.AddLine(to_imgui(at), to_imgui(*light), IM_COL32(0, 0, 0, 160), 4.0f * unit);
         list.AddLine(to_imgui(at), to_imgui(*light), packed(view_colours.ray), 2.0f * unit);

@@ -98,8 +98,7 @@ void draw_inside(Frame& frame, const Area& body) {
     if (!frame.inside_failure.empty())
         return empty_pane_text(frame, "The view inside cannot be drawn", frame.inside_failure);
     if (!frame.inside) {
-        if (frame.shown.ray_failure)
-            return empty_pane_text(frame, "No ray is selected", frame.shown.ray_failure->message);
+        if (frame.shown.ray_failure) return empty_pane_text(frame, "No ray is selected", ray_failure_text(frame));
         return empty_pane_text(frame, "The inside of the technique appears here",
                                "As soon as its structure is built: the data that serves the selected ray, in space.");
     }

@@ -173,11 +173,10 @@ void draw_table(Frame& frame, const PixelRays& rays, bool narrow) {
 }  // namespace
 
 void draw_rays(Frame& frame) {
-    if (!frame.shown.rays) {
-        if (frame.shown.ray_failure) return empty_pane_text(frame, "No ray to show", frame.shown.ray_failure->message);
+    if (frame.shown.ray_failure) return empty_pane_text(frame, "No ray to show", ray_failure_text(frame));
+    if (!frame.shown.rays)
         return empty_pane_text(frame, "The rays of a pixel appear here",
                                "Click a point of the image: each light in front of it is one ray.");
-    }
     const bool narrow = ImGui::GetContentRegionAvail().x < narrow_width * frame.scale;
     const float padding = narrow ? 3.0f * frame.scale : ImGui::GetStyle().CellPadding.x;
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(padding, ImGui::GetStyle().CellPadding.y));
@@ -186,7 +185,7 @@ void draw_rays(Frame& frame) {
 }
 
 void draw_rays_controls(Frame& frame, float right) {
-    if (!frame.shown.rays) return;
+    if (!frame.shown.rays || frame.shown.ray_failure) return;
     const PixelRays& rays = *frame.shown.rays;
     const auto wrong = std::ranges::count_if(rays.rows, &RayRow::wrong);
     ImGui::AlignTextToFramePadding();

@@ -28,7 +28,7 @@ std::string geometry_text(const TraceGeometry& geometry) {
     const auto length = [](vec3 v) { return fixed_text(static_cast<double>(glm::length(v)), 2); };
     switch (geometry.shape) {
         case TraceShape::point:
-            return "point";
+            return value_text({"", geometry.points[0], "m"});
         case TraceShape::segment:
             return length(geometry.points[1] - geometry.points[0]) + " m long";
         case TraceShape::box:

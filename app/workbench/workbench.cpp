@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 constexpr ImageSize first_size{1600, 900};
 constexpr auto gesture_pause = std::chrono::milliseconds(300);  // wheel steps closer than this are one gesture
 constexpr int frames_to_settle = 3;                             // ImGui's layouts need a frame or two after an input
-constexpr double idle_wait_s = 0.5, working_wait_s = 1.0 / 15.0;
+constexpr double idle_wait_s = 0.5, working_wait_s = 0.1;
 constexpr int least_picture_side = 64;
 
 /// Everything that lives as long as the window. The order is that of the start; the end goes backwards.
@@ -42,6 +42,8 @@ struct Bench {
     bool wanted_draft = false;
     Clock::time_point last_gesture;
     int settling = frames_to_settle;
+    Shared<Scene> announced;     ///< the scene whose notes were shown and that the title names
+    std::string save_complaint;  ///< that was shown
 
     explicit Bench(const WorkbenchRequest& request)
         : background(results, [this] { wake_window(); }),
@@ -180,7 +182,23 @@ void ask_for_inside(Bench& bench, const Frame& frame, const Arrangement& areas) 
         request.lit.step = steps[step].geometry;
     }
     request.lit.pointed = frame.ui.pointed;
+    if (now.selection.voxel && ray_is_current(frame))
+        request.lit.pointed.push_back(voxel_box(*frame.shown.inside, *now.selection.voxel));
     draw(bench.inside, request);
+}
+
+/// What the user should know without having asked: the notes of a new scene, and that the session cannot be saved.
+void announce(Bench& bench, const Shown& now) {
+    if (now.scene && now.scene != bench.announced) {
+        bench.announced = now.scene;
+        set_title(bench.window, now.scene->value.name + " - Sightlines");
+        std::string notes;
+        for (const std::string& note : now.scene->value.notes) notes.append(notes.empty() ? "" : "\n").append(note);
+        if (!notes.empty() && !bench.ui.message) bench.ui.message = Message{notes, false};
+    }
+    const std::string complaint = save_failure(bench.autosave);
+    if (complaint != bench.save_complaint && !complaint.empty()) bench.ui.message = Message{complaint, true};
+    bench.save_complaint = complaint;
 }
 
 /// How long nothing has to be drawn if nothing happens.
@@ -211,6 +229,7 @@ double draw_frame(Bench& bench, const WindowEvents& events) {
     const Shown shown_now = shown(bench.background);
     const auto inside_now = shown(bench.inside);
     const std::string inside_failure = failure(bench.inside);
+    announce(bench, shown_now);
     bench.ui.pointed.clear();
     Frame frame{.window = bench.window,
                 .background = bench.background,
