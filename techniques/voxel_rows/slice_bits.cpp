@@ -37,12 +37,18 @@ void transpose_64(std::array<std::uint64_t, 64>& rows) {
 
 }  // namespace
 
+void SliceCounts::clear() {
+    for (int w = 0; w < side; ++w)
+        std::memset(&bytes[static_cast<std::size_t>(place_of(0, w))], 0, static_cast<std::size_t>(side));
+}
+
 std::uint64_t SliceCounts::sum() const {
     const hn::CappedTag<std::uint8_t, 64> tag;
     const hn::RepartitionToWide<hn::RepartitionToWide<hn::RepartitionToWide<decltype(tag)>>> sums_tag;
     auto sums = hn::Zero(sums_tag);
-    for (std::size_t k = 0; k < bytes.size(); k += hn::Lanes(tag))  // whole vectors: the margin is one at least
-        sums = hn::Add(sums, hn::SumsOf8(hn::LoadU(tag, &bytes[k])));
+    for (int w = 0; w < side; ++w)
+        for (int u = 0; u < side; u += static_cast<int>(hn::Lanes(tag)))  // whole vectors: 64 divides the side
+            sums = hn::Add(sums, hn::SumsOf8(hn::LoadU(tag, &bytes[static_cast<std::size_t>(place_of(u, w))])));
     return hn::GetLane(hn::SumOfLanes(sums_tag, sums));
 }
 

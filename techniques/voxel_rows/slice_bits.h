@@ -1,7 +1,6 @@
 // One slice (constant v) of a voxelization as a square matrix of bits, on its way from marks to rows.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,8 +21,8 @@ struct SliceCounts {
           bytes(static_cast<std::size_t>(pitch) * (side + 2) + margin) {}
 
     int place_of(int u, int w) const { return (w + 1) * pitch + margin + u; }
-    void clear() { std::fill(bytes.begin(), bytes.end(), std::uint8_t{0}); }
-
+    /// Both leave the margin out, which stays empty.
+    void clear();
     std::uint64_t sum() const;
 
     int side;                         ///< voxels in a padded row, and rows
