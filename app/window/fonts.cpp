@@ -105,7 +105,6 @@ Fonts load_fonts(float scale) {
     const Typeface text = find_typeface(installed, "Inter", "DejaVu Sans", FC_WEIGHT_REGULAR);
     const Typeface bold = find_typeface(installed, "Inter", "DejaVu Sans", FC_WEIGHT_DEMIBOLD);
     const Typeface mono = find_typeface(installed, "JetBrains Mono", "DejaVu Sans Mono", FC_WEIGHT_REGULAR);
-    const Typeface mono_bold = find_typeface(installed, "JetBrains Mono", "DejaVu Sans Mono", FC_WEIGHT_BOLD);
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
     atlas.Clear();
     atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
@@ -115,9 +114,7 @@ Fonts load_fonts(float scale) {
     fonts.text = add_font(text, 14.0f * scale);
     fonts.text_bold = add_font(bold, 14.0f * scale);
     fonts.small = add_font(text, 12.0f * scale);
-    fonts.title = add_font(bold, 18.0f * scale);
     fonts.mono = add_font(mono, 13.0f * scale);
-    fonts.mono_bold = add_font(mono_bold, 13.0f * scale);
     if (!atlas.Build()) throw EnvironmentError("the fonts", "cannot be rasterised");
     atlas.ClearInputData();
     ImGui::GetIO().FontDefault = fonts.text;

@@ -12,9 +12,7 @@ struct Fonts {
     ImFont* text = nullptr;       ///< Inter, 14 design pixels
     ImFont* text_bold = nullptr;  ///< Inter semi-bold, 14
     ImFont* small = nullptr;      ///< Inter, 12: captions, units, help
-    ImFont* title = nullptr;      ///< Inter semi-bold, 18
     ImFont* mono = nullptr;       ///< JetBrains Mono, 13: numbers and source
-    ImFont* mono_bold = nullptr;  ///< JetBrains Mono bold, 13
 };
 const Fonts& fonts(const Window& window);
 

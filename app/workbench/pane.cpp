@@ -111,8 +111,6 @@ void draw_body(Frame& frame, PanePlace place, PaneContent content, const Area& b
 
 }  // namespace
 
-std::string_view title(PaneContent content) { return row_of(content).title; }
-
 Area pane_body(const Area& pane, float scale) {
     const float height = std::round(header_height * scale);
     return {pane.corner + vec2(0.0f, height), glm::max(pane.size - vec2(0.0f, height), vec2(0.0f))};

@@ -7,9 +7,6 @@
 
 namespace sightlines {
 
-/// "Image", "Inside" ...
-std::string_view title(PaneContent content);
-
 /// The whole pane: its header with the menu of contents, and the content below. Double click on the header maximises.
 void draw_pane(Frame& frame, PanePlace place, const Area& area);
 /// What is left below a pane's header, in the window's pixels.

@@ -66,7 +66,7 @@ TEST(Style, EveryFontHasTheSignsThatTheTextsUse) {
     Window window("test", {800, 600});
     begin_frame(window, {}, 0.0);
     const Fonts& all = fonts(window);
-    for (const ImFont* font : {all.text, all.text_bold, all.small, all.title, all.mono, all.mono_bold}) {
+    for (const ImFont* font : {all.text, all.text_bold, all.small, all.mono}) {
         ASSERT_NE(font, nullptr);
         for (const char32_t sign : U"Aé°²³·×½εθλπσφωΔΣΩ–—…‘’“”←→↑↓⇒≤≥≈≠∞√∈∩∪∑∫▲▼▶◀●○◆✓✗₀ᵥ"s)
             EXPECT_NE(font->FindGlyphNoFallback(static_cast<ImWchar>(sign)), nullptr)
@@ -80,10 +80,9 @@ TEST(Style, NumbersInTheMonospacedFontLineUp) {
     Window window("test", {800, 600});
     for (const float text_scale : {1.0f, 1.25f, 2.0f}) {
         begin_frame(window, {.theme = Theme::dark, .text_scale = text_scale}, 0.0);
-        for (const ImFont* font : {fonts(window).mono, fonts(window).mono_bold})
-            for (const char sign : std::string("0123456789.-+ abcxyzABC"))
-                EXPECT_EQ(font->GetCharAdvance(static_cast<ImWchar>(sign)), font->GetCharAdvance('0'));
-        EXPECT_EQ(fonts(window).mono->GetCharAdvance('0'), fonts(window).mono_bold->GetCharAdvance('0'));
+        for (const char sign : std::string("0123456789.-+ abcxyzABC"))
+            EXPECT_EQ(fonts(window).mono->GetCharAdvance(static_cast<ImWchar>(sign)),
+                      fonts(window).mono->GetCharAdvance('0'));
         end_frame(window);
     }
 }
