@@ -7,6 +7,7 @@
 #include "shaders/spirv.h"
 #include "shaders/window_picture_data.h"
 #include "techniques/base/error.h"
+#include "techniques/compute/dispatch.h"
 
 namespace sightlines {
 namespace {
@@ -48,17 +49,6 @@ DeviceOwned<VkPipelineLayout, vkDestroyPipelineLayout> make_layout(const compute
     return {layout, {device.logical.get()}};
 }
 
-DeviceOwned<VkShaderModule, vkDestroyShaderModule> make_module(const compute::Device& device,
-                                                               std::span<const std::uint32_t> spirv) {
-    VkShaderModuleCreateInfo create{};
-    create.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    create.codeSize = spirv.size_bytes();
-    create.pCode = spirv.data();
-    VkShaderModule module = VK_NULL_HANDLE;
-    check_drawing(vkCreateShaderModule(device.logical.get(), &create, nullptr, &module), device, "loading a shader");
-    return {module, {device.logical.get()}};
-}
-
 VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits which, VkShaderModule module) {
     VkPipelineShaderStageCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -70,8 +60,8 @@ VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits which, VkShaderModul
 
 DeviceOwned<VkPipeline, vkDestroyPipeline> make_pipeline(const compute::Device& device, VkPipelineLayout layout,
                                                          VkRenderPass render_pass) {
-    const auto vertex_module = make_module(device, spirv::window_picture_vert());
-    const auto fragment_module = make_module(device, spirv::window_picture_frag());
+    const auto vertex_module = compute::make_module(device, spirv::window_picture_vert());
+    const auto fragment_module = compute::make_module(device, spirv::window_picture_frag());
     const VkPipelineShaderStageCreateInfo stages[] = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex_module.get()),
                                                       stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment_module.get())};
     VkPipelineVertexInputStateCreateInfo vertices{};

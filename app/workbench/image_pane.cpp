@@ -15,10 +15,8 @@
 namespace sightlines {
 namespace {
 
-constexpr float click_slack = 4.0f;    // design pixels that a click may move
 constexpr float handle_radius = 7.0f;  // of the light's handle
-constexpr float wheel_step = 1.12f;
-constexpr float fly_share = 0.12f;  // of the scene's diagonal, a second
+constexpr float fly_share = 0.12f;     // of the scene's diagonal, a second
 
 constexpr std::array<ChannelRow, 7> channels{{
     {Channel::lit, "Lit", "Radiance by the technique"},
@@ -37,6 +35,9 @@ struct Placed {
 
     vec2 picture_from_window(vec2 position) const {
         return (position - area.corner) / area.size * vec2(picture.width, picture.height);
+    }
+    ivec2 pixel_at(vec2 position) const {
+        return glm::clamp(ivec2(picture_from_window(position)), ivec2(0), ivec2(picture.width, picture.height) - 1);
     }
     vec2 window_from_picture(vec2 position) const {
         return area.corner + position / vec2(picture.width, picture.height) * area.size;
@@ -73,10 +74,6 @@ void draw_plate(const Frame& frame, vec2 at, vec2 anchor, const std::string& tex
     list.AddRectFilled(to_imgui(corner), to_imgui(corner + size), IM_COL32(16, 18, 22, 200), 4.0f * frame.scale);
     list.AddText(frame.fonts.small, frame.fonts.small->FontSize, to_imgui(corner + padding),
                  IM_COL32(238, 241, 245, 255), text.c_str());
-}
-
-ImU32 packed(vec3 colour, float alpha = 1.0f) {
-    return ImGui::ColorConvertFloat4ToU32({colour.x, colour.y, colour.z, alpha});
 }
 
 void ring(ImDrawList& list, vec2 at, float radius, float width, ImU32 colour) {
@@ -247,7 +244,7 @@ void handle_mouse(Frame& frame, const Area& body, const Placed& where, const std
     if (ImGui::IsItemDeactivated()) {
         const bool click = glm::distance(mouse, frame.ui.press) <= slack &&
                            ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !frame.ui.moving_light;
-        if (click && where.area.contains(mouse)) select_pixel(frame, ivec2(where.picture_from_window(mouse)));
+        if (click && where.area.contains(mouse)) select_pixel(frame, where.pixel_at(mouse));
         frame.ui.moving_light = false;
     }
     if (!hovered && !held) return;
@@ -258,7 +255,7 @@ void handle_mouse(Frame& frame, const Area& body, const Placed& where, const std
     fly(frame);
     if (where.area.contains(mouse) && !held)
         draw_plate(frame, where.area.end() - 8.0f * frame.scale, {1.0f, 1.0f},
-                   pixel_text(frame, ivec2(where.picture_from_window(mouse))));
+                   pixel_text(frame, where.pixel_at(mouse)));
 }
 
 std::string state_text(const PictureShown& picture) {

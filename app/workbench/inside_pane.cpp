@@ -7,9 +7,6 @@
 namespace sightlines {
 namespace {
 
-constexpr float click_slack = 4.0f;  // design pixels that a click may move
-constexpr float wheel_step = 1.12f;
-
 /// All geometry that the steps of the ray recorded.
 std::vector<TraceGeometry> recorded_geometry(std::span<const TraceStep> steps) {
     std::vector<TraceGeometry> all;

@@ -13,8 +13,6 @@
 namespace sightlines {
 namespace {
 
-ImU32 packed(vec3 colour) { return ImGui::ColorConvertFloat4ToU32({colour.x, colour.y, colour.z, 1.0f}); }
-
 /// What a value is in space: the geometry of its name, else all of its step's, else the ray.
 std::vector<TraceGeometry> geometry_of(const Frame& frame, const TraceStep& step, const std::string& name) {
     for (const TraceGeometry& geometry : step.geometry)

@@ -14,6 +14,11 @@ namespace sightlines {
 
 inline ImVec2 to_imgui(vec2 v) { return {v.x, v.y}; }
 inline vec2 from_imgui(ImVec2 v) { return {v.x, v.y}; }
+/// An sRGB colour of the views' palette.
+inline ImU32 packed(vec3 colour) { return ImGui::ColorConvertFloat4ToU32({colour.x, colour.y, colour.z, 1.0f}); }
+
+/// How far the mouse may move in a click, in design pixels, and how much nearer one step of its wheel comes.
+constexpr float click_slack = 4.0f, wheel_step = 1.12f;
 
 /// Panes and bars lie behind; what overlaps them lies above, whatever is clicked.
 enum class Layer { behind, above };

@@ -72,17 +72,6 @@ void record_timed(const Device& device, VkCommandBuffer commands, VkQueryPool ti
     check(vkEndCommandBuffer(commands), device, "recording commands");
 }
 
-DeviceOwned<VkShaderModule, vkDestroyShaderModule> make_module(const Device& device,
-                                                               std::span<const std::uint32_t> spirv) {
-    VkShaderModuleCreateInfo create{};
-    create.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    create.codeSize = spirv.size_bytes();
-    create.pCode = spirv.data();
-    VkShaderModule module = VK_NULL_HANDLE;
-    check(vkCreateShaderModule(device.logical.get(), &create, nullptr, &module), device, "loading a shader");
-    return {module, {device.logical.get()}};
-}
-
 DeviceOwned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> make_set_layout(const Device& device,
                                                                                  std::uint32_t texel_buffers) {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
@@ -123,6 +112,17 @@ DeviceOwned<VkBufferView, vkDestroyBufferView> make_view(const Device& device, c
 }
 
 }  // namespace
+
+DeviceOwned<VkShaderModule, vkDestroyShaderModule> make_module(const Device& device,
+                                                               std::span<const std::uint32_t> spirv) {
+    VkShaderModuleCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    create.codeSize = spirv.size_bytes();
+    create.pCode = spirv.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    check(vkCreateShaderModule(device.logical.get(), &create, nullptr, &module), device, "loading a shader");
+    return {module, {device.logical.get()}};
+}
 
 Pipeline make_pipeline(const std::shared_ptr<const Device>& device, std::span<const std::uint32_t> spirv,
                        std::uint32_t push_constant_bytes, std::span<const SpecializationConstant> constants,

@@ -15,6 +15,10 @@ struct SpecializationConstant {
     std::uint32_t value = 0;
 };
 
+/// A shader of any stage, loaded. EnvironmentError where the driver refuses it.
+DeviceOwned<VkShaderModule, vkDestroyShaderModule> make_module(const Device& device,
+                                                               std::span<const std::uint32_t> spirv);
+
 /// One entry point, `main`. Memory is reached through device addresses in the push constants and, where asked for,
 /// through uniform texel buffers: set 0, bindings 0 to texel_buffers - 1.
 struct Pipeline {

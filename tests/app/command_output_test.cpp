@@ -1,5 +1,4 @@
 // What the commands write: complete files with everything that the design names, or none.
-#include <cstdlib>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -140,21 +139,6 @@ TEST(Workspace, LooksForItsSceneBesideItself) {
     EXPECT_EQ(run.exit_code, 3);
     EXPECT_NE(run.errors.find("house.glb: no such file"), std::string::npos) << run.errors;
 }
-
-/// While it lives, programs that are started find no display.
-struct DisplayHidden {
-    std::optional<std::string> before;
-
-    DisplayHidden() {
-        if (const char* const display = std::getenv("DISPLAY")) before = display;
-        unsetenv("DISPLAY");
-    }
-    ~DisplayHidden() {
-        if (before) setenv("DISPLAY", before->c_str(), 1);
-    }
-    DisplayHidden(const DisplayHidden&) = delete;
-    DisplayHidden& operator=(const DisplayHidden&) = delete;
-};
 
 TEST(Workspace, SaysThatThereIsNoDisplayForTheWindow) {
     const fs::path folder = fresh_folder();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <thread>
@@ -29,6 +30,15 @@ std::vector<std::string> files_in(const fs::path& folder) {
     for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
     std::ranges::sort(names);
     return names;
+}
+
+DisplayHidden::DisplayHidden() {
+    if (const char* const display = std::getenv("DISPLAY")) before = display;
+    unsetenv("DISPLAY");
+}
+
+DisplayHidden::~DisplayHidden() {
+    if (before) setenv("DISPLAY", before->c_str(), 1);
 }
 
 fs::path fresh_folder() {

@@ -17,6 +17,16 @@ struct ProgramRun {
 ProgramRun run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                        std::optional<double> interrupt_after_s = {});
 
+/// While it lives, programs that are started find no display.
+struct DisplayHidden {
+    std::optional<std::string> before;
+
+    DisplayHidden();
+    ~DisplayHidden();
+    DisplayHidden(const DisplayHidden&) = delete;
+    DisplayHidden& operator=(const DisplayHidden&) = delete;
+};
+
 /// An empty folder for the running test.
 std::filesystem::path fresh_folder();
 

@@ -59,15 +59,6 @@ std::size_t different_pixels(const ImageRgba8& a, const ImageRgba8& b) {
 
 }  // namespace
 
-fs::path fresh_folder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const fs::path folder =
-        fs::path(SIGHTLINES_TEST_OUTPUT_FOLDER) / (std::string(test->test_suite_name()) + "." + test->name());
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    return folder;
-}
-
 DrivenWindow::DrivenWindow(const fs::path& folder, const Session& session,
                            const std::vector<std::string>& more_arguments)
     : session_file(folder / "session.json"), errors_file(folder / "errors.txt") {

@@ -16,9 +16,6 @@ namespace sightlines {
 
 struct Xvfb;
 
-/// An empty folder for the running test.
-std::filesystem::path fresh_folder();
-
 /// The program with its window, started with `session` and killed with the object if it still runs. The display must
 /// live longer.
 struct DrivenWindow {

@@ -5,6 +5,7 @@
 
 #include "app/workbench/panes.h"
 #include "driven_window.h"
+#include "tests/app/run_program.h"
 #include "tests/window/xvfb.h"  // last: it brings the macros of the X library
 
 namespace sightlines {
@@ -153,21 +154,11 @@ TEST(Window, WritesALineForEachFrame) {
 
 TEST(Window, SaysThatThereIsNoDisplayAndEndsWithExitCode4) {
     const auto folder = fresh_folder();
-    const auto at_end = [](const char* name, const std::string& value) { setenv(name, value.c_str(), 1); };
-    const char* const before = std::getenv("DISPLAY");
-    const std::string display = before == nullptr ? "" : before;
-    unsetenv("DISPLAY");
-    unsetenv("WAYLAND_DISPLAY");
-    const std::string command = std::string(SIGHTLINES_PROGRAM) + " --session " + (folder / "s.json").string() + " 2>" +
-                                (folder / "errors").string();
-    const int status = std::system(command.c_str());
-    if (before != nullptr) at_end("DISPLAY", display);
-    EXPECT_EQ(WEXITSTATUS(status), 4);
-    std::ifstream errors(folder / "errors");
-    std::string line;
-    std::getline(errors, line);
-    EXPECT_NE(line.find("DISPLAY"), std::string::npos) << line;
-    EXPECT_FALSE(std::getline(errors, line)) << line;
+    const DisplayHidden hidden;
+    const ProgramRun run = run_program({"--session", "s.json"}, folder);
+    EXPECT_EQ(run.exit_code, 4);
+    EXPECT_NE(run.errors.find("DISPLAY"), std::string::npos) << run.errors;
+    EXPECT_EQ(std::ranges::count(run.errors, '\n'), 1) << run.errors;
 }
 
 }  // namespace
