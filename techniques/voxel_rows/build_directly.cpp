@@ -73,20 +73,19 @@ RowArray build_directly(const Scene& scene, const BuildOptions& options, Progres
     progress.begin("voxelising each direction from the triangles", static_cast<std::int64_t>(array.grid.angles) * half);
     parallel_for(array.grid.angles, options.threads, [&](std::int64_t theta) {
         Marks marks(n);
-        SliceBits bits(n), transposed(n);
+        SliceBits bits(n), bits_again(n), transposed(n);
         for (int phi = 0; phi < half; ++phi) {
             const int direction = static_cast<int>(theta) * array.grid.angles + phi;
             voxelize(scene, shape, array.grid.frames[static_cast<std::size_t>(direction)], marks);
             for (int v = 0; v < n; ++v) {
-                SliceCounts& slice = marks.slices[static_cast<std::size_t>(v)];
-                bits.pack(slice, 0, 0);
-                slice.clear();
-                transposed.transpose_of(bits);
+                take_bits(marks.slices[static_cast<std::size_t>(v)], {1, 1}, bits, bits_again);
+                transpose(bits, transposed);
                 store_slice(array, shape, direction, v, bits);
                 store_slice(array, shape, direction + half, v, transposed);
             }
             progress.advance();
         }
+        finish_storing();
     });
     array.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return array;

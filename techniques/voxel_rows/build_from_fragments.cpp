@@ -68,9 +68,8 @@ PlaneMap plane_map(const DirectionFrame& frame, vec3 horizontal) {
     return {frame.u.y, glm::dot(frame.u, horizontal), frame.w.y, glm::dot(frame.w, horizontal)};
 }
 
-/// The area that sets a voxel, in the units of SurfaceSample: `coverage` of its cross-section. 0: any does.
+/// The area that sets a voxel, in the units of SurfaceSample: `coverage` of its cross-section. 1: any does.
 int area_needed(const DirectionFrame& frame, double coverage, float cell_m) {
-    if (coverage == 0.0) return 0;
     const float cross_section_m2 = 1.0f / (glm::length(level_axis(frame)) * glm::length(frame.w));
     return std::max(1, static_cast<int>(std::lround(area_units * coverage * cross_section_m2 / (cell_m * cell_m))));
 }
@@ -114,7 +113,7 @@ void splat_theta(RowArray& array, const RowShape& shape, std::span<const Surface
     const int first_direction = theta * grid.angles;
     const SlicedSamples sliced =
         slice_samples(samples, shape, grid.frames[static_cast<std::size_t>(first_direction)], horizontal);
-    SliceBits bits(n), transposed(n);
+    SliceBits along_u(n), along_w(n), transposed(n);
     SliceCounts areas(n);
     for (int v = 0; v < n; ++v) {
         const std::size_t begin = sliced.first[static_cast<std::size_t>(v)];
@@ -127,19 +126,19 @@ void splat_theta(RowArray& array, const RowShape& shape, std::span<const Surface
             const int direction = first_direction + phi;
             const DirectionFrame& frame = grid.frames[static_cast<std::size_t>(direction)];
             const DirectionFrame& partner = grid.frames[static_cast<std::size_t>(direction + half)];
-            areas.clear();
-            add_areas<false>(plane_map(frame, horizontal), sliced, begin, end, n, areas);
-            if (areas.sum() != area_in_all) {  // a voxel overflowed: rare
-                areas.clear();
-                add_areas<true>(plane_map(frame, horizontal), sliced, begin, end, n, areas);
+            const Needed needed{area_needed(frame, coverage, cell_m), area_needed(partner, coverage, cell_m)};
+            const PlaneMap map = plane_map(frame, horizontal);
+            add_areas<false>(map, sliced, begin, end, n, areas);
+            if (take_bits(areas, needed, along_u, along_w) != area_in_all) {  // a voxel overflowed: rare
+                add_areas<true>(map, sliced, begin, end, n, areas);
+                take_bits(areas, needed, along_u, along_w);
             }
-            bits.pack(areas, 1, area_needed(partner, coverage, cell_m));
-            transposed.transpose_of(bits);
-            bits.pack(areas, 0, area_needed(frame, coverage, cell_m));
-            store_slice(array, shape, direction, v, bits);
+            store_slice(array, shape, direction, v, along_u);
+            transpose(along_w, transposed);
             store_slice(array, shape, direction + half, v, transposed);
         }
     }
+    finish_storing();
 }
 
 /// The edge of the cubes in which the surface is sampled.

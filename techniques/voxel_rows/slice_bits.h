@@ -2,12 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+
 #include <vector>
+
+#include <oneapi/tbb/cache_aligned_allocator.h>
 
 #include "techniques/voxel_rows/row_array.h"
 
 namespace sightlines::voxel_rows {
+
+/// Whole vectors load from its beginning without crossing cache lines.
+template <class Value>
+using AlignedVector = std::vector<Value, tbb::cache_aligned_allocator<Value>>;
 
 /// What the surface leaves in each of N x N voxels, 0 to 255. Rows are padded to whole 64-bit words of voxels; a
 /// margin of empty voxels lies all around, so that every voxel has neighbours.
@@ -21,31 +27,37 @@ struct SliceCounts {
           bytes(static_cast<std::size_t>(pitch) * (side + 2) + margin) {}
 
     int place_of(int u, int w) const { return (w + 1) * pitch + margin + u; }
-    /// Both leave the margin out, which stays empty.
-    void clear();
-    std::uint64_t sum() const;
 
-    int side;                         ///< voxels in a padded row, and rows
-    int pitch;                        ///< bytes from one row to the next
-    std::vector<std::uint8_t> bytes;  ///< the voxel (u, w) is bytes[place_of(u, w)]
+    int side;                           ///< voxels in a padded row, and rows
+    int pitch;                          ///< bytes from one row to the next
+    AlignedVector<std::uint8_t> bytes;  ///< the voxel (u, w) is bytes[place_of(u, w)]
 };
 
-/// N x N bits, padded to whole 64-bit words; bit u of row w is bit u % 64 of rows[w * blocks + u / 64].
+/// N x N bits, padded to whole 64-bit words; bit u of row w is bit u % 64 of words[u / 64 * side + w].
 struct SliceBits {
     explicit SliceBits(int resolution)
-        : blocks((resolution + 63) / 64), rows(static_cast<std::size_t>(blocks) * blocks * 64) {}
+        : side((resolution + 63) / 64 * 64), words(static_cast<std::size_t>(side) * side / 64) {}
 
-    /// Sets a voxel that holds at least `needed`, or does so together with the fuller of its two neighbours along
-    /// `axis` (0: u, 1: w) and holds no less than that one: a surface that straddles two voxels sets the one with more
-    /// of it. needed 0: sets every voxel that holds anything.
-    void pack(const SliceCounts& counts, int axis, int needed);
-    void transpose_of(const SliceBits& other);
-
-    int blocks;                       ///< 64-bit words in a row, and 64-row blocks in a column
-    std::vector<std::uint64_t> rows;  ///< [64 * blocks][blocks]
+    int side;                            ///< bits in a padded row, and rows
+    AlignedVector<std::uint64_t> words;  ///< [side / 64][side]
 };
+
+/// What a voxel must hold to be set: at least `along_u` (`along_w`) by itself, or together with the fuller of its two
+/// neighbours along that axis if it holds no less than that one. So a surface that straddles two voxels sets the one
+/// with more of it. 1: sets every voxel that holds anything.
+struct Needed {
+    int along_u = 1, along_w = 1;
+};
+
+/// Packs the slice by what is needed along each axis, and empties it. Returns the sum of all that it held.
+std::uint64_t take_bits(SliceCounts& counts, Needed needed, SliceBits& along_u, SliceBits& along_w);
+
+void transpose(const SliceBits& bits, SliceBits& transposed);
 
 /// Writes the slice's rows to their places: row w of the slice is the row (v, w) of `direction`.
 void store_slice(RowArray& array, const RowShape& shape, int direction, int v, const SliceBits& bits);
+
+/// What this thread has stored may be read by others from here on.
+void finish_storing();
 
 }  // namespace sightlines::voxel_rows

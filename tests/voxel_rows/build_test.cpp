@@ -252,37 +252,37 @@ TEST(VoxelRowsBuild, LeavesNoHoleInAWallTiltedAnyWay) {
 
 TEST(SliceBits, SetsWhatHoldsEnoughAloneOrWithAnEmptierNeighbourAndTransposes) {
     for (const int n : {32, 64, 100, 128, 256}) {
-        SliceBits bits(n), transposed(n);
-        SliceCounts counts(n);
+        SliceBits along_u(n), along_w(n), transposed(n);
+        SliceCounts filled(n);
         std::uint64_t sum = 0;
         for (int w = 0; w < n; ++w) {
             for (int u = 0; u < n; ++u) {
                 const std::uint32_t value = random_u32(3, static_cast<std::uint32_t>(w * n + u), 0) % 256u;
-                counts.bytes[static_cast<std::size_t>(counts.place_of(u, w))] = static_cast<std::uint8_t>(value);
+                filled.bytes[static_cast<std::size_t>(filled.place_of(u, w))] = static_cast<std::uint8_t>(value);
                 sum += value;
             }
         }
-        EXPECT_EQ(counts.sum(), sum);
         const auto at = [&](int u, int w) {
             const bool inside = u >= 0 && w >= 0 && u < n && w < n;
-            return inside ? int{counts.bytes[static_cast<std::size_t>(counts.place_of(u, w))]} : 0;
+            return inside ? int{filled.bytes[static_cast<std::size_t>(filled.place_of(u, w))]} : 0;
         };
-        const auto blocks = static_cast<std::size_t>(bits.blocks);
-        for (const int needed : {0, 1, 100, 255}) {
-            for (const int axis : {0, 1}) {
-                bits.pack(counts, axis, needed);
-                transposed.transpose_of(bits);
-                for (int w = 0; w < n; ++w) {
-                    for (int u = 0; u < n; ++u) {
-                        const int own = at(u, w);
-                        const int neighbour =
-                            axis == 0 ? std::max(at(u - 1, w), at(u + 1, w)) : std::max(at(u, w - 1), at(u, w + 1));
-                        const bool together = own >= neighbour && own + neighbour >= needed;
-                        const auto set = static_cast<std::uint64_t>(own > 0 && (own >= needed || together));
-                        const auto row = static_cast<std::size_t>(w), column = static_cast<std::size_t>(u);
-                        ASSERT_EQ((bits.rows[row * blocks + column / 64] >> (column % 64)) & 1u, set);
-                        ASSERT_EQ((transposed.rows[column * blocks + row / 64] >> (row % 64)) & 1u, set);
-                    }
+        const auto is_set = [&](const SliceBits& bits, int u, int w) {
+            return (bits.words[static_cast<std::size_t>(u / 64 * bits.side + w)] >> (u % 64) & 1u) != 0;
+        };
+        for (const Needed needed : {Needed{1, 1}, Needed{100, 40}, Needed{40, 100}, Needed{255, 255}}) {
+            SliceCounts counts = filled;
+            EXPECT_EQ(take_bits(counts, needed, along_u, along_w), sum);
+            EXPECT_EQ(std::ranges::count(counts.bytes, 0), static_cast<std::ptrdiff_t>(counts.bytes.size()));
+            transpose(along_w, transposed);
+            for (int w = 0; w < n; ++w) {
+                for (int u = 0; u < n; ++u) {
+                    const int own = at(u, w);
+                    const auto expected = [&](int neighbour, int least) {
+                        return own >= least || (own > 0 && own >= neighbour && own + neighbour >= least);
+                    };
+                    ASSERT_EQ(is_set(along_u, u, w), expected(std::max(at(u - 1, w), at(u + 1, w)), needed.along_u));
+                    ASSERT_EQ(is_set(along_w, u, w), expected(std::max(at(u, w - 1), at(u, w + 1)), needed.along_w));
+                    ASSERT_EQ(is_set(transposed, w, u), is_set(along_w, u, w));
                 }
             }
         }
