@@ -6,7 +6,7 @@ packages=(
     # libraries
     libvtk9-dev libembree-dev libglm-dev libtinygltf-dev libstb-dev libtbb-dev libhwy-dev libcairo2-dev libfreetype-dev
     nlohmann-json3-dev libcli11-dev libxxhash-dev libvulkan-dev libegl-dev libgl-dev libglew-dev libgtest-dev
-    libimgui-dev libglfw3-dev libx11-dev libfontconfig-dev
+    libimgui-dev libglfw3-dev libx11-dev libxcb-shm0-dev libxrandr-dev libfontconfig-dev
     # drivers and fonts that the program looks for when it runs
     mesa-vulkan-drivers libgl1-mesa-dri libegl1 fonts-inter fonts-jetbrains-mono fonts-dejavu-core
     # for tests: shader and API checks, a display, keys and clicks on it, pictures to compare

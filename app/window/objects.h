@@ -6,6 +6,7 @@
 #include "app/window/display_lost.h"
 #include "app/window/imgui_backend.h"
 #include "app/window/picture_pipeline.h"
+#include "app/window/shared_screen.h"
 #include "app/window/style.h"
 #include "app/window/swapchain.h"
 
@@ -19,9 +20,11 @@ struct Window::Objects {
     DisplayLost display_lost;
     GlfwWindow handle;
     Graphics graphics;
+    std::optional<SharedScreen> shared;  ///< in place of the swapchain
     VkSurfaceFormatKHR format;
     DeviceOwned<VkRenderPass, vkDestroyRenderPass> render_pass;
     Swapchain swapchain;
+    ImageSize drawn_size{0, 0};  ///< of the image that the frame is drawn into
     PicturePipeline pictures;
     DeviceOwned<VkSemaphore, vkDestroySemaphore> acquired;
     DeviceOwned<VkFence, vkDestroyFence> done;

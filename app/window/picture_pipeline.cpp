@@ -111,52 +111,6 @@ DeviceOwned<VkPipeline, vkDestroyPipeline> make_pipeline(const compute::Device& 
     return {pipeline, {device.logical.get()}};
 }
 
-DeviceOwned<VkImage, vkDestroyImage> make_image(const compute::Device& device, ImageSize size) {
-    VkImageCreateInfo create{};
-    create.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
-    create.imageType = VK_IMAGE_TYPE_2D;
-    create.format = VK_FORMAT_R8G8B8A8_UNORM;
-    create.extent = {static_cast<std::uint32_t>(size.width), static_cast<std::uint32_t>(size.height), 1};
-    create.mipLevels = create.arrayLayers = 1;
-    create.samples = VK_SAMPLE_COUNT_1_BIT;
-    create.tiling = VK_IMAGE_TILING_OPTIMAL;
-    create.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    VkImage image = VK_NULL_HANDLE;
-    check_drawing(vkCreateImage(device.logical.get(), &create, nullptr, &image), device, "making an image");
-    return {image, {device.logical.get()}};
-}
-
-DeviceOwned<VkDeviceMemory, vkFreeMemory> make_image_memory(const compute::Device& device, VkImage image) {
-    VkMemoryRequirements requirements{};
-    vkGetImageMemoryRequirements(device.logical.get(), image, &requirements);
-    VkMemoryAllocateInfo create{};
-    create.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-    create.allocationSize = requirements.size;
-    while (create.memoryTypeIndex < device.memory.memoryTypeCount &&
-           (!(requirements.memoryTypeBits >> create.memoryTypeIndex & 1u) ||
-            !(device.memory.memoryTypes[create.memoryTypeIndex].propertyFlags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)))
-        ++create.memoryTypeIndex;
-    assert(create.memoryTypeIndex < device.memory.memoryTypeCount);  // Vulkan promises one for such images
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    check_drawing(vkAllocateMemory(device.logical.get(), &create, nullptr, &memory), device,
-                  "allocating " + compute::bytes_text(requirements.size));
-    DeviceOwned<VkDeviceMemory, vkFreeMemory> owned{memory, {device.logical.get()}};
-    check_drawing(vkBindImageMemory(device.logical.get(), image, memory, 0), device, "binding memory");
-    return owned;
-}
-
-DeviceOwned<VkImageView, vkDestroyImageView> make_view(const compute::Device& device, VkImage image) {
-    VkImageViewCreateInfo create{};
-    create.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-    create.image = image;
-    create.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    create.format = VK_FORMAT_R8G8B8A8_UNORM;
-    create.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    VkImageView view = VK_NULL_HANDLE;
-    check_drawing(vkCreateImageView(device.logical.get(), &create, nullptr, &view), device, "making a view");
-    return {view, {device.logical.get()}};
-}
-
 /// One set for each way of sampling: a choice in the shader would cost software devices both samples.
 void make_descriptor_sets(WindowTexture::Objects& texture, const PicturePipeline& pipeline) {
     const compute::Device& device = *texture.device;
@@ -178,7 +132,7 @@ void make_descriptor_sets(WindowTexture::Objects& texture, const PicturePipeline
     check_drawing(vkAllocateDescriptorSets(device.logical.get(), &create, texture.sets.data()), device, "making sets");
     for (const Sampling sampling : {Sampling::nearest, Sampling::linear}) {
         const VkSampler sampler = (sampling == Sampling::nearest ? pipeline.nearest : pipeline.linear).get();
-        const VkDescriptorImageInfo image{sampler, texture.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        const VkDescriptorImageInfo image{sampler, texture.image.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
         VkWriteDescriptorSet write{};
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         write.dstSet = texture.sets[static_cast<std::size_t>(sampling)];
@@ -255,9 +209,8 @@ std::shared_ptr<WindowTexture::Objects> make_texture_objects(const std::shared_p
     texture->device = device;
     texture->size = size;
     texture->staging = compute::make_buffer(device, 4 * size.pixels(), compute::MemoryPlace::host);
-    texture->image = make_image(*device, size);
-    texture->memory = make_image_memory(*device, texture->image.get());
-    texture->view = make_view(*device, texture->image.get());
+    texture->image = make_image(*device, size, VK_FORMAT_R8G8B8A8_UNORM,
+                                VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
     make_descriptor_sets(*texture, pipeline);
     return texture;
 }
@@ -269,15 +222,12 @@ void record_copy(WindowTexture::Objects& texture, VkCommandBuffer commands) {
     barrier.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;  // all of it is written anew
     barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
     barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.image = texture.image.get();
-    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    barrier.image = texture.image.image.get();
+    barrier.subresourceRange = whole_image;
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
                          VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr, 1, &barrier);
-    VkBufferImageCopy region{};
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageExtent = {static_cast<std::uint32_t>(texture.size.width),
-                          static_cast<std::uint32_t>(texture.size.height), 1};
-    vkCmdCopyBufferToImage(commands, texture.staging.handle.get(), texture.image.get(),
+    const VkBufferImageCopy region = whole_copy(texture.size);
+    vkCmdCopyBufferToImage(commands, texture.staging.handle.get(), texture.image.image.get(),
                            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
     barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
     barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;

@@ -4,7 +4,7 @@
 #include <array>
 #include <deque>
 
-#include "app/window/graphics.h"
+#include "app/window/images.h"
 #include "app/window/texture.h"
 #include "techniques/compute/buffer.h"
 
@@ -25,9 +25,7 @@ struct WindowTexture::Objects {
     std::shared_ptr<const compute::Device> device;  ///< first: the handles below go before it
     ImageSize size{0, 0};
     compute::Buffer staging;
-    DeviceOwned<VkDeviceMemory, vkFreeMemory> memory;
-    DeviceOwned<VkImage, vkDestroyImage> image;
-    DeviceOwned<VkImageView, vkDestroyImageView> view;
+    OwnedImage image;
     DeviceOwned<VkDescriptorPool, vkDestroyDescriptorPool> pool;  ///< of its two sets
     std::array<VkDescriptorSet, 2> sets{};                        ///< by Sampling
     bool copy_pending = false;                                    ///< the staging memory is newer

@@ -1,6 +1,7 @@
 #include "app/window/swapchain.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "techniques/base/error.h"
@@ -8,30 +9,11 @@
 namespace sightlines {
 namespace {
 
-SwapchainImage make_image(const compute::Device& device, VkImage image, ImageSize size, VkFormat format,
-                          VkRenderPass render_pass) {
+SwapchainImage make_swapchain_image(const compute::Device& device, VkImage image, ImageSize size, VkFormat format,
+                                    VkRenderPass render_pass) {
     SwapchainImage made;
-    VkImageViewCreateInfo create_view{};
-    create_view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-    create_view.image = image;
-    create_view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    create_view.format = format;
-    create_view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    VkImageView view = VK_NULL_HANDLE;
-    check_drawing(vkCreateImageView(device.logical.get(), &create_view, nullptr, &view), device, "making a view");
-    made.view = {view, {device.logical.get()}};
-    VkFramebufferCreateInfo create{};
-    create.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
-    create.renderPass = render_pass;
-    create.attachmentCount = 1;
-    create.pAttachments = &view;
-    create.width = static_cast<std::uint32_t>(size.width);
-    create.height = static_cast<std::uint32_t>(size.height);
-    create.layers = 1;
-    VkFramebuffer framebuffer = VK_NULL_HANDLE;
-    check_drawing(vkCreateFramebuffer(device.logical.get(), &create, nullptr, &framebuffer), device,
-                  "making a framebuffer");
-    made.framebuffer = {framebuffer, {device.logical.get()}};
+    made.view = make_view(device, image, format);
+    made.framebuffer = make_framebuffer(device, made.view.get(), size, render_pass);
     made.drawn = make_semaphore(device);
     return made;
 }
@@ -83,7 +65,7 @@ void remake(Swapchain& swapchain, const Graphics& graphics, ImageSize window_siz
     check_drawing(vkGetSwapchainImagesKHR(device.logical.get(), handle, &count, images.data()), device,
                   "asking for the swapchain's images");
     for (const VkImage image : images)
-        swapchain.images.push_back(make_image(device, image, swapchain.size, format.format, render_pass));
+        swapchain.images.push_back(make_swapchain_image(device, image, swapchain.size, format.format, render_pass));
     swapchain.outdated = false;
 }
 
@@ -102,7 +84,8 @@ VkSurfaceFormatKHR choose_format(const Graphics& graphics) {
     throw EnvironmentError("Vulkan device " + device.info.name, "cannot show pictures of 8 bits a channel here");
 }
 
-DeviceOwned<VkRenderPass, vkDestroyRenderPass> make_render_pass(const compute::Device& device, VkFormat format) {
+DeviceOwned<VkRenderPass, vkDestroyRenderPass> make_render_pass(const compute::Device& device, VkFormat format,
+                                                                VkImageLayout final_layout) {
     VkAttachmentDescription attachment{};
     attachment.format = format;
     attachment.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -111,24 +94,29 @@ DeviceOwned<VkRenderPass, vkDestroyRenderPass> make_render_pass(const compute::D
     attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
     attachment.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    attachment.finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
+    attachment.finalLayout = final_layout;
     const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     VkSubpassDescription subpass{};
     subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
     subpass.colorAttachmentCount = 1;
     subpass.pColorAttachments = &reference;
-    VkSubpassDependency dependency{};
-    dependency.srcSubpass = VK_SUBPASS_EXTERNAL;
-    dependency.srcStageMask = dependency.dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    dependency.dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+    std::array<VkSubpassDependency, 2> dependencies{};
+    dependencies[0].srcSubpass = VK_SUBPASS_EXTERNAL;
+    dependencies[0].srcStageMask = dependencies[0].dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    dependencies[0].dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+    dependencies[1].dstSubpass = VK_SUBPASS_EXTERNAL;  // for those who copy the image afterwards
+    dependencies[1].srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    dependencies[1].srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+    dependencies[1].dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    dependencies[1].dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT;
     VkRenderPassCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
     create.attachmentCount = 1;
     create.pAttachments = &attachment;
     create.subpassCount = 1;
     create.pSubpasses = &subpass;
-    create.dependencyCount = 1;
-    create.pDependencies = &dependency;
+    create.dependencyCount = static_cast<std::uint32_t>(dependencies.size());
+    create.pDependencies = dependencies.data();
     VkRenderPass render_pass = VK_NULL_HANDLE;
     check_drawing(vkCreateRenderPass(device.logical.get(), &create, nullptr, &render_pass), device,
                   "making a render pass");

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/window/graphics.h"
+#include "app/window/images.h"
 
 namespace sightlines {
 
@@ -25,8 +25,9 @@ struct Swapchain {
 /// Bytes as they are: no conversion to sRGB on the way to the screen.
 VkSurfaceFormatKHR choose_format(const Graphics& graphics);
 
-/// Clears, is drawn into once, and is shown.
-DeviceOwned<VkRenderPass, vkDestroyRenderPass> make_render_pass(const compute::Device& device, VkFormat format);
+/// Clears, is drawn into once, and leaves its image in `final_layout`.
+DeviceOwned<VkRenderPass, vkDestroyRenderPass> make_render_pass(const compute::Device& device, VkFormat format,
+                                                                VkImageLayout final_layout);
 
 /// The index of the next image to draw into; `acquired` is signalled when it may be drawn into. Nothing where the
 /// window has no pixels at the moment, or changes faster than it can be followed. Makes the images again where they

@@ -13,7 +13,7 @@ void add_quad(Window::Objects& objects, ImDrawList& list, QuadDraw quad) {
     assert(objects.in_frame);
     quad.pipeline = &objects.pictures;
     quad.commands = &objects.commands;
-    quad.framebuffer = &objects.swapchain.size;
+    quad.framebuffer = &objects.drawn_size;
     objects.draws.push_back(std::move(quad));
     list.AddCallback(record_quad, &objects.draws.back());
     list.AddCallback(ImDrawCallback_ResetRenderState, nullptr);

@@ -23,7 +23,7 @@ void follow_look(Window::Objects& objects, const WindowLook& look) {
     restart_drawing(objects.imgui);
 }
 
-void record_frame(Window::Objects& objects, const SwapchainImage& image) {
+void record_frame(Window::Objects& objects, VkFramebuffer framebuffer) {
     const VkCommandBuffer commands = objects.commands;
     begin_commands(*objects.graphics.device, commands);
     for (const auto& texture : objects.uploads) record_copy(*texture, commands);
@@ -32,37 +32,67 @@ void record_frame(Window::Objects& objects, const SwapchainImage& image) {
     VkRenderPassBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
     begin.renderPass = objects.render_pass.get();
-    begin.framebuffer = image.framebuffer.get();
-    begin.renderArea.extent = {static_cast<std::uint32_t>(objects.swapchain.size.width),
-                               static_cast<std::uint32_t>(objects.swapchain.size.height)};
+    begin.framebuffer = framebuffer;
+    begin.renderArea.extent = {static_cast<std::uint32_t>(objects.drawn_size.width),
+                               static_cast<std::uint32_t>(objects.drawn_size.height)};
     begin.clearValueCount = 1;
     begin.pClearValues = &clear;
     vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
     record_imgui_frame(commands);
     vkCmdEndRenderPass(commands);
+    if (objects.shared) record_read_back(*objects.shared, commands);
     check_drawing(vkEndCommandBuffer(commands), *objects.graphics.device, "recording the frame");
 }
 
-/// Starts the drawing, hands the image over to be shown, and waits until it is drawn.
-void submit_frame(Window::Objects& objects, std::uint32_t index) {
+/// Starts the drawing. `waits_for` and `signals` are null where no swapchain is involved.
+void submit(const Window::Objects& objects, VkSemaphore waits_for, VkSemaphore signals) {
     const compute::Device& device = *objects.graphics.device;
-    const VkSemaphore acquired = objects.acquired.get(), drawn = objects.swapchain.images[index].drawn.get();
     const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     const VkFence done = objects.done.get();
     VkSubmitInfo submit{};
     submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-    submit.waitSemaphoreCount = 1;
-    submit.pWaitSemaphores = &acquired;
+    submit.waitSemaphoreCount = waits_for == VK_NULL_HANDLE ? 0 : 1;
+    submit.pWaitSemaphores = &waits_for;
     submit.pWaitDstStageMask = &stage;
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &objects.commands;
-    submit.signalSemaphoreCount = 1;
-    submit.pSignalSemaphores = &drawn;
+    submit.signalSemaphoreCount = signals == VK_NULL_HANDLE ? 0 : 1;
+    submit.pSignalSemaphores = &signals;
     check_drawing(vkResetFences(device.logical.get(), 1, &done), device, "drawing the frame");
     check_drawing(vkQueueSubmit(device.queue, 1, &submit, done), device, "drawing the frame");
-    present(objects.swapchain, objects.graphics, index);
+}
+
+void wait_until_drawn(const Window::Objects& objects) {
+    const compute::Device& device = *objects.graphics.device;
+    const VkFence done = objects.done.get();
     check_drawing(vkWaitForFences(device.logical.get(), 1, &done, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
                   device, "drawing the frame");
+}
+
+/// False where there is nothing to draw into at the moment.
+bool draw_to_shared_screen(Window::Objects& objects, ImageSize size) {
+    SharedScreen& screen = *objects.shared;
+    if (!fit(screen, size, objects.render_pass.get())) return false;
+    objects.drawn_size = screen.size;
+    record_frame(objects, screen.framebuffer.get());
+    submit(objects, VK_NULL_HANDLE, VK_NULL_HANDLE);
+    wait_until_drawn(objects);
+    show(screen);
+    return true;
+}
+
+bool draw_to_swapchain(Window::Objects& objects, ImageSize size) {
+    Swapchain& swapchain = objects.swapchain;
+    const std::optional<std::uint32_t> index = next_image(swapchain, objects.graphics, size, objects.format,
+                                                          objects.render_pass.get(), objects.acquired.get());
+    if (!index) return false;
+    const SwapchainImage& image = swapchain.images[*index];
+    objects.drawn_size = swapchain.size;
+    record_frame(objects, image.framebuffer.get());
+    submit(objects, objects.acquired.get(), image.drawn.get());
+    present(swapchain, objects.graphics, *index);
+    wait_until_drawn(objects);
+    return true;
 }
 
 }  // namespace
@@ -70,8 +100,10 @@ void submit_frame(Window::Objects& objects, std::uint32_t index) {
 Window::Objects::Objects(const std::string& title, ImageSize size)
     : handle(make_glfw_window(title, size, input)),
       graphics(make_graphics(handle.get())),
+      shared(share_screen(handle.get(), graphics)),
       format(choose_format(graphics)),
-      render_pass(make_render_pass(*graphics.device, format.format)),
+      render_pass(make_render_pass(*graphics.device, shared ? shared_screen_format : format.format,
+                                   shared ? shared_screen_layout : VK_IMAGE_LAYOUT_PRESENT_SRC_KHR)),
       pictures(make_picture_pipeline(*graphics.device, render_pass.get())),
       acquired(make_semaphore(*graphics.device)),
       done(make_fence(*graphics.device)),
@@ -107,12 +139,8 @@ void end_frame(Window& window) {
     Window::Objects& objects = *window.objects;
     ImGui::Render();
     objects.in_frame = false;
-    const std::optional<std::uint32_t> index =
-        next_image(objects.swapchain, objects.graphics, framebuffer_size(window), objects.format,
-                   objects.render_pass.get(), objects.acquired.get());
-    if (!index) return;
-    record_frame(objects, objects.swapchain.images[*index]);
-    submit_frame(objects, *index);
+    const ImageSize size = framebuffer_size(window);
+    if (objects.shared ? !draw_to_shared_screen(objects, size) : !draw_to_swapchain(objects, size)) return;
     objects.uploads.clear();
 }
 

@@ -10,14 +10,21 @@ namespace {
 constexpr glm::u8vec4 red{200, 10, 20, 255}, green{30, 180, 40, 255}, blue{50, 60, 220, 255}, white{250, 251, 252, 255};
 const WindowLook dark{.theme = Theme::dark}, light{.theme = Theme::light};
 
+/// By either way of a frame to the screen.
+struct WindowPicture : testing::TestWithParam<PictureTransfer> {};
+INSTANTIATE_TEST_SUITE_P(, WindowPicture, testing::Values(PictureTransfer::shared_memory, PictureTransfer::socket),
+                         [](const auto& transfer) {
+                             return transfer.param == PictureTransfer::shared_memory ? "SharedMemory" : "Socket";
+                         });
+
 ImageRgba8 four_pixels() {
     ImageRgba8 picture({2, 2});
     picture.pixels = {red, green, blue, white};
     return picture;
 }
 
-TEST(WindowPicture, ShowsImGuisColoursAsTheyAre) {
-    const Xvfb server({1000, 700});
+TEST_P(WindowPicture, ShowsImGuisColoursAsTheyAre) {
+    const Xvfb server({1000, 700}, 96, GetParam());
     Window window("test", {800, 600});
     const auto draw = [](ImDrawList& list) { list.AddRectFilled({100, 50}, {300, 150}, IM_COL32(200, 10, 20, 255)); };
     const ImageRgba8 seen =
@@ -32,8 +39,8 @@ TEST(WindowPicture, ShowsImGuisColoursAsTheyAre) {
     EXPECT_FALSE(device_name(window).empty());
 }
 
-TEST(WindowPicture, TexturesAreDrawnPixelForPixelWithoutTheirAlpha) {
-    const Xvfb server({1000, 700});
+TEST_P(WindowPicture, TexturesAreDrawnPixelForPixelWithoutTheirAlpha) {
+    const Xvfb server({1000, 700}, 96, GetParam());
     Window window("test", {800, 600});
     ImageRgba8 picture = four_pixels();
     picture.at(1, 0).a = 0;
@@ -58,8 +65,8 @@ TEST(WindowPicture, TexturesAreDrawnPixelForPixelWithoutTheirAlpha) {
     EXPECT_EQ(seen.at(99, 200), pixel(colours(Theme::dark).page));
 }
 
-TEST(WindowPicture, TexturesKeepToTheClipRectangleAndToTheAskedPart) {
-    const Xvfb server({1000, 700});
+TEST_P(WindowPicture, TexturesKeepToTheClipRectangleAndToTheAskedPart) {
+    const Xvfb server({1000, 700}, 96, GetParam());
     Window window("test", {800, 600});
     WindowTexture texture;
     const auto draw = [&](ImDrawList& list) {
@@ -82,8 +89,8 @@ TEST(WindowPicture, TexturesKeepToTheClipRectangleAndToTheAskedPart) {
     EXPECT_EQ(seen.at(310, 110), blue);
 }
 
-TEST(WindowPicture, FillsAreOpaqueAndKeepToTheClipRectangleAndToTheWindow) {
-    const Xvfb server({1000, 700});
+TEST_P(WindowPicture, FillsAreOpaqueAndKeepToTheClipRectangleAndToTheWindow) {
+    const Xvfb server({1000, 700}, 96, GetParam());
     Window window("test", {800, 600});
     const auto draw = [&](ImDrawList& list) {
         list.PushClipRect({100, 100}, {900, 300});
@@ -103,8 +110,8 @@ TEST(WindowPicture, FillsAreOpaqueAndKeepToTheClipRectangleAndToTheWindow) {
     EXPECT_EQ(seen.at(125, 165), blue);
 }
 
-TEST(WindowPicture, LinearSamplingBlendsBetweenPixels) {
-    const Xvfb server({1000, 700});
+TEST_P(WindowPicture, LinearSamplingBlendsBetweenPixels) {
+    const Xvfb server({1000, 700}, 96, GetParam());
     Window window("test", {800, 600});
     ImageRgba8 ramp({2, 1});
     ramp.pixels = {{0, 0, 0, 255}, {200, 100, 40, 255}};
@@ -120,8 +127,8 @@ TEST(WindowPicture, LinearSamplingBlendsBetweenPixels) {
     EXPECT_EQ(seen.at(50, 50), (glm::u8vec4{0, 0, 0, 255}));
 }
 
-TEST(WindowPicture, AnUploadReplacesWhatATextureShowed) {
-    const Xvfb server({1000, 700});
+TEST_P(WindowPicture, AnUploadReplacesWhatATextureShowed) {
+    const Xvfb server({1000, 700}, 96, GetParam());
     Window window("test", {800, 600});
     WindowTexture texture;
     const auto fill = [&](ImageSize size, glm::u8vec4 colour) {
@@ -137,8 +144,8 @@ TEST(WindowPicture, AnUploadReplacesWhatATextureShowed) {
     EXPECT_EQ(fill({300, 7}, blue), blue);
 }
 
-TEST(WindowPicture, ATextureMayGoBeforeTheFrameThatShowsIt) {
-    const Xvfb server({1000, 700});
+TEST_P(WindowPicture, ATextureMayGoBeforeTheFrameThatShowsIt) {
+    const Xvfb server({1000, 700}, 96, GetParam());
     Window window("test", {800, 600});
     const auto draw = [&](ImDrawList& list) {
         WindowTexture texture;
@@ -152,8 +159,8 @@ TEST(WindowPicture, ATextureMayGoBeforeTheFrameThatShowsIt) {
     EXPECT_EQ(seen.at(100, 100), pixel(colours(Theme::dark).page));
 }
 
-TEST(WindowPicture, TheThemeChangesTheColours) {
-    const Xvfb server({1000, 700});
+TEST_P(WindowPicture, TheThemeChangesTheColours) {
+    const Xvfb server({1000, 700}, 96, GetParam());
     Window window("test", {800, 600});
     const auto nothing = [](ImDrawList&) {};
     for (const WindowLook& look : {dark, light, dark}) {
@@ -166,12 +173,12 @@ TEST(WindowPicture, TheThemeChangesTheColours) {
 }
 
 /// Draws all there is to draw, and changes all there is to change.
-[[noreturn]] void draw_everything_validated() {
+[[noreturn]] void draw_everything_validated(PictureTransfer transfer) {
     setenv("SIGHTLINES_VULKAN_VALIDATION", "1", 1);
     std::fflush(stdout);
     dup2(STDERR_FILENO, STDOUT_FILENO);  // the layer writes to standard output, where nobody would look
     {
-        const Xvfb server({1000, 700});
+        const Xvfb server({1000, 700}, 96, transfer);
         Window window("test", {800, 600});
         WindowTexture texture;
         for (int frame = 0; frame < 8; ++frame) {
@@ -194,7 +201,8 @@ TEST(WindowPictureDeathTest, TheValidationLayerFindsNothingToSay) {
     setenv("SIGHTLINES_VULKAN_VALIDATION", "1", 1);
     if (!compute::validation_wanted()) GTEST_SKIP() << "the validation layer is not installed";
     GTEST_FLAG_SET(death_test_style, "threadsafe");
-    EXPECT_EXIT(draw_everything_validated(), testing::ExitedWithCode(0), "^$");
+    for (const PictureTransfer transfer : {PictureTransfer::shared_memory, PictureTransfer::socket})
+        EXPECT_EXIT(draw_everything_validated(transfer), testing::ExitedWithCode(0), "^$");
 }
 
 }  // namespace

@@ -21,13 +21,16 @@
 
 namespace sightlines {
 
+/// Whether the server takes pictures from memory that it shares with the program, or through its socket.
+enum class PictureTransfer { shared_memory, socket };
+
 /// While it lives, DISPLAY names it. The screen has no window manager: windows open at its upper left corner.
 struct Xvfb {
     std::string display;  ///< ":7"
     pid_t process = -1;
     std::optional<std::string> display_before;
 
-    explicit Xvfb(ImageSize screen, int dots_per_inch = 96) {
+    explicit Xvfb(ImageSize screen, int dots_per_inch = 96, PictureTransfer transfer = PictureTransfer::shared_memory) {
         int number[2];
         if (pipe(number) != 0) throw std::runtime_error("no pipe");
         const std::string size = std::to_string(screen.width) + "x" + std::to_string(screen.height) + "x24";
@@ -36,8 +39,9 @@ struct Xvfb {
         if (process == 0) {
             const int nowhere = open("/dev/null", O_WRONLY);
             dup2(nowhere, STDERR_FILENO);
+            const char* const switched = transfer == PictureTransfer::shared_memory ? "+extension" : "-extension";
             execlp("Xvfb", "Xvfb", "-displayfd", number_to.c_str(), "-screen", "0", size.c_str(), "-nolisten", "tcp",
-                   "-noreset", nullptr);
+                   "-noreset", switched, "MIT-SHM", nullptr);
             _exit(127);
         }
         close(number[1]);
