@@ -6,7 +6,9 @@
 
 #include "techniques/base/error.h"
 #include "techniques/compute/device.h"
+#include "techniques/rays/virtual_lights.h"
 #include "techniques/scene/builtin_scenes.h"
+#include "techniques/scene/moving_parts.h"
 
 namespace sightlines {
 namespace {
@@ -130,6 +132,10 @@ Backend Results::backend(const Session& session) const {
 
 Session Results::resolved(Session session) const {
     if (session.backend != BackendChoice::automatic) return session;
+    if (!find_technique(session.technique).on_vulkan) {
+        session.backend = BackendChoice::cpu;
+        return session;
+    }
     std::call_once(automatic_asked_, [this] { automatic_answer_ = automatic_(); });
     session.backend = automatic_answer_ == Backend::vulkan ? BackendChoice::vulkan : BackendChoice::cpu;
     return session;
@@ -179,17 +185,41 @@ Shared<SurfaceBuffer> Results::surfaces(const Session& session, Progress& progre
 
 Shared<std::vector<Light>> Results::lights(const Session& session, Progress& progress) {
     const auto scene = this->scene(session, progress);
-    return lights_.get(lights_part(session), progress, false,
-                       [&] { return make_lights(scene->value, session.lights, session.seed); });
+    const std::uint32_t indirect = session.lights.virtual_lights;
+    const auto embree = indirect > 0 ? this->embree(session, progress) : nullptr;
+    return lights_.get(lights_part(session), progress, false, [&] {
+        std::vector<Light> lights = make_lights(scene->value, session.lights, session.seed);
+        if (indirect == 0) return lights;
+        if (lights.size() + indirect > max_lights)
+            throw InputError("virtual lights", "", std::to_string(lights.size() + indirect) + " lights are too many",
+                             "the most is " + std::to_string(max_lights) + " with the lights that they come from");
+        const std::vector<Light> added =
+            virtual_lights(scene->value, *embree->value, lights, indirect, session.seed, threads_, progress);
+        lights.insert(lights.end(), added.begin(), added.end());
+        return lights;
+    });
+}
+
+Session Results::structure_key(const Session& session, const Scene& scene) const {
+    Session part = structure_part(resolved(session));
+    if (!anything_moves(scene)) part.time_s = 0.0;
+    return part;
 }
 
 Shared<BuiltStructure> Results::structure(const Session& session, Progress& progress) {
     const auto scene = this->scene(session, progress);
-    return structure_.get(structure_part(resolved(session)), progress, true, [&] {
+    const Session part = structure_key(session, scene->value);
+    return structure_.get(part, progress, true, [&] {
         BuiltStructure built{&find_technique(session.technique), scene, {}, {}};
-        const BuildRequest request{&scene->value, technique_parameters(session), backend(session), threads_};
+        BuildRequest request{&scene->value, technique_parameters(session), backend(session), threads_, {}};
+        Session at_any_time = part;
+        at_any_time.time_s = 0.0;
+        if (kept_part_ == at_any_time) request.kept = kept_;
+        kept_ = {};
         built.structure = built.technique->build(request, progress);
         built.statistics = built.technique->statistics(built.structure);
+        kept_part_ = at_any_time;
+        if (built.technique->kept) kept_ = built.technique->kept(built.structure);
         return built;
     });
 }
@@ -236,7 +266,9 @@ Shared<RenderResult> Results::latest_picture(const Session& session) const {
 }
 
 Shared<BuiltStructure> Results::latest_structure(const Session& session) const {
-    return structure_.empty() ? nullptr : structure_.latest(structure_part(resolved(session)));
+    if (structure_.empty()) return nullptr;
+    const auto scene = scene_.latest(scene_part(session));
+    return scene ? structure_.latest(structure_key(session, scene->value)) : nullptr;
 }
 
 }  // namespace sightlines

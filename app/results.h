@@ -130,6 +130,8 @@ public:
 
 private:
     Session resolved(Session session) const;
+    /// What the structure for this scene depends on: not the time where nothing moves.
+    Session structure_key(const Session& session, const Scene& scene) const;
 
     int threads_;
     std::function<Backend()> automatic_;
@@ -141,6 +143,8 @@ private:
     Stage<SurfaceBuffer> surfaces_;
     Stage<std::vector<Light>> lights_;
     Stage<BuiltStructure> structure_;
+    std::any kept_;  ///< for the structure of another time; only its maker touches these two
+    std::optional<Session> kept_part_;
     Stage<RenderResult> picture_, reference_;
     Stage<ErrorMetrics> errors_;
 };

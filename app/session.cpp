@@ -25,8 +25,8 @@ constexpr std::array<std::string_view, 3> backend_names{"automatic", "cpu", "vul
 constexpr std::array<std::string_view, 2> camera_kind_names{"perspective", "orthographic"};
 constexpr std::array<std::string_view, 3> theme_names{"light", "dark", "print"};
 constexpr std::array<std::string_view, 2> cut_away_names{"none", "to_row"};
-constexpr std::array<std::string_view, 7> channel_names{
-    "lit", "reference", "shadow", "visibility_error", "shadow_error", "rays", "lights_seen"};
+constexpr std::array<std::string_view, 7> channel_names{"lit",          "reference", "shadow",     "visibility_error",
+                                                        "shadow_error", "rays",      "lights_seen"};
 
 constexpr std::array<std::string_view, pane_count> content_names{"image",  "inside", "rays",
                                                                  "source", "values", "parameters"};
@@ -51,6 +51,7 @@ constexpr auto describe_lights = [](auto& fields, auto& lights) {
     fields.boolean("coloured", lights.coloured);
     fields.number("brightness", lights.brightness, 0.0f, 1e6f);
     fields.list("moved", lights.moved, max_moved_lights, describe_moved_light);
+    fields.number("virtual_lights", lights.virtual_lights, 0u, max_lights);
 };
 
 constexpr auto describe_camera = [](auto& fields, auto& camera) {

@@ -26,7 +26,8 @@ FN Vec3 light_end(LightRecord light, Vec3 position, float reach_m) {
 FN Mask is_asked(Vec3 normal, Vec3 to_the_light) { return dot3(normal, to_the_light) > splat(0.0f); }
 
 /// Irradiance from the light where nothing is in the way, divided by the light's intensity: cosine over squared
-/// distance, a spot's falloff included. W/m^2 for 1 W/sr. The distance is kept above a millimetre.
+/// distance, a spot's falloff and a surface's cosine included. W/m^2 for 1 W/sr. The distance is kept above a millimetre, and
+/// above a surface light's own nearest distance.
 FN Real irradiance_per_intensity(LightRecord light, Vec3 normal, Vec3 to_the_light) {
     const Real squared_distance = max(dot3(to_the_light, to_the_light), splat(1.0e-6f));
     const Real distance = sqrt(squared_distance);
@@ -35,6 +36,10 @@ FN Real irradiance_per_intensity(LightRecord light, Vec3 normal, Vec3 to_the_lig
     const Real point = cosine / squared_distance;
     if (light.kind == light_point) return point;
     const Real cosine_off_axis = -dot3(splat(light.direction), to_the_light) / distance;
+    if (light.kind == light_surface) {
+        const Real kept_away = max(squared_distance, splat(light.cosine_outer));
+        return cosine * max(cosine_off_axis, splat(0.0f)) / kept_away;
+    }
     const Real width = splat(max(light.cosine_inner - light.cosine_outer, 1.0e-4f));
     const Real inside = min(max((cosine_off_axis - splat(light.cosine_outer)) / width, splat(0.0f)), splat(1.0f));
     return point * inside * inside;

@@ -5,8 +5,10 @@
 //   splat(x)                         a uniform value as one for each ray
 //   select(mask, a, b)               a where the mask holds, else b; both sides are evaluated
 //   fused(a, b, c)                   a * b + c; rounded once where the machine can
-//   to_int(r) to_uint(i)            truncating, reinterpreting
+//   to_int(r) to_real(i)            truncating, exact
+//   to_uint(i) to_signed(u)         reinterpreting
 //   shift_left(x, n) shift_right(x, n)   zero where n >= 32
+//   any_lane(mask)                   whether it holds for any ray: what loops ask
 //   NOTE(paper, sentence) SHOW SHOW_BITS SHOW_POINT SHOW_SEGMENT   recorded in recording C++, nothing elsewhere
 // GLSL has no variadic macros, hence one SHOW for each value.
 #ifndef SIGHTLINES_PORTABILITY_H
@@ -80,9 +82,12 @@ inline Real max(Real a, Real b) { return a > b ? a : b; }
 inline Int min(Int a, Int b) { return a < b ? a : b; }
 inline Int max(Int a, Int b) { return a > b ? a : b; }
 inline Int to_int(Real x) { return static_cast<Int>(x); }
+inline Real to_real(Int x) { return static_cast<Real>(x); }
 inline UInt to_uint(Int x) { return static_cast<UInt>(x); }
+inline Int to_signed(UInt x) { return static_cast<Int>(x); }
 inline UInt shift_left(UInt x, UInt n) { return n < 32u ? x << n : 0u; }
 inline UInt shift_right(UInt x, UInt n) { return n < 32u ? x >> n : 0u; }
+inline bool any_lane(Mask mask) { return mask; }
 KERNEL_END
 #endif
 
@@ -112,7 +117,10 @@ KERNEL_END
 #define select(mask, a, b) ((mask) ? (a) : (b))
 #define fused(a, b, c) fma(a, b, c)
 #define to_int(x) int(x)
+#define to_real(x) float(x)
 #define to_uint(x) uint(x)
+#define to_signed(x) int(x)
+#define any_lane(mask) (mask)
 
 FN UInt shift_left(UInt x, UInt n) { return n < 32u ? x << n : 0u; }
 FN UInt shift_right(UInt x, UInt n) { return n < 32u ? x >> n : 0u; }

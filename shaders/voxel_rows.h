@@ -1,4 +1,4 @@
-// A shadow ray answered by one row of bits: Wang 2017, Algorithm 3 without the dictionary.
+// A shadow ray answered by one row of bits: Wang 2017, Algorithm 3.
 #ifndef SIGHTLINES_VOXEL_ROWS_H
 #define SIGHTLINES_VOXEL_ROWS_H
 
@@ -8,7 +8,8 @@
 
 KERNEL_BEGIN
 
-/// Where the answer to one ray (or half of it) lies: a row, and the voxels of it that the ray passes.
+/// Where the answer to one ray (or half of it) lies: a row (first of the array, then as it is stored), and the voxels of
+/// it that the ray passes.
 struct RowSpan {
     UInt row;
     Int first;   // voxels first .. last, inclusive; first > last: nothing to look at
@@ -37,6 +38,8 @@ struct Direction {
 /// Its place in the table of frames.
 FN Int frame_index(RowShape shape, Direction direction) { return direction.theta * splat(shape.angles) + direction.phi; }
 
+FN float steps_per_radian(RowShape shape) { return float(shape.angles) * 0.318309886f; }
+
 /// The direction of the array nearest to a line. Lines have no sign, so theta and phi stay below
 /// 180 degrees: d(theta, phi) = cos(phi) Y + sin(phi) (cos(theta) X + sin(theta) Z).
 FN Direction discretize_direction(RowShape shape, Vec3 along_line) {
@@ -51,8 +54,8 @@ FN Direction discretize_direction(RowShape shape, Vec3 along_line) {
     const Real reciprocal = splat(1.0f) / (theta_longer * phi_longer);
     const Real theta = angle_above(z, x, min(abs(x), z) * phi_longer * reciprocal);
     const Real phi = angle_above(horizontal, y, min(abs(y), horizontal) * theta_longer * reciprocal);
-    Int theta_step = to_int(fused(theta, splat(shape.steps_per_radian), splat(0.5f)));
-    Int phi_step = to_int(fused(phi, splat(shape.steps_per_radian), splat(0.5f)));
+    Int theta_step = to_int(fused(theta, splat(steps_per_radian(shape)), splat(0.5f)));
+    Int phi_step = to_int(fused(phi, splat(steps_per_radian(shape)), splat(0.5f)));
     // d(180, phi) = -d(0, 180 - phi), and d(theta, 180) = -d(theta, 0): the same lines.
     const Mask past_theta = theta_step == splat(shape.angles);
     phi_step = select(past_theta, splat(shape.angles) - phi_step, phi_step);
@@ -128,6 +131,16 @@ FN RowSpan locate_span(RowShape shape, Frame frame, Direction direction, Vec3 a,
     return span;
 }
 
+/// Which of the stored rows holds a row's bits: itself, or a row of the dictionary where the array is compressed.
+FN UInt stored_row(RowShape shape, Rows rows, UInt row) {
+    if (shape.index_bits == 0) return row;
+    const UInt index = load_index(rows, shape, row);
+    NOTE("Algorithm 3, line 3", "The row's index in the dictionary: the array holds only that, the dictionary the bits.");
+    SHOW(row);
+    SHOW(index);
+    return index;
+}
+
 /// The bits of one word of a row that lie in first .. last.
 FN UInt kept_bits(UInt word, int word_index, Int first, Int last) {
     const int lowest = 32 * word_index;
@@ -136,7 +149,7 @@ FN UInt kept_bits(UInt word, int word_index, Int first, Int last) {
     return word & shift_left(splat(0xffffffffu), below) & shift_right(splat(0xffffffffu), above);
 }
 
-/// Whether any voxel of the span is set.
+/// Whether any voxel of the span is set. Its row is a stored one.
 FN Mask span_is_blocked(RowShape shape, Rows rows, RowSpan span) {
     UInt clipped = splat(0u);
     NOTE("Algorithm 3, lines 5 to 7", "The row's bits outside the extent are cleared; any bit left blocks the ray.");
@@ -207,6 +220,13 @@ FN RowSpan locate_part(RowShape shape, Frame frame, Direction direction, Vec3 a,
     return locate_span(shape, frame, direction, middle, b, 0.0f, shape.light_offset);
 }
 
+/// Whether anything is in the way of part `part` of the ray.
+FN Mask part_is_blocked(RowShape shape, Frame frame, Rows rows, Direction direction, Vec3 a, Vec3 b, int part) {
+    RowSpan span = locate_part(shape, frame, direction, a, b, part);
+    span.row = stored_row(shape, rows, span.row);
+    return span_is_blocked(shape, rows, span);
+}
+
 /// Algorithm 3: whether the scene is in the way between `origin` (of ray_origin) and `target`.
 FN Mask is_blocked(RowShape shape, FrameTable frames, Rows rows, Vec3 origin, Vec3 target) {
     Vec3 a = origin;
@@ -219,9 +239,9 @@ FN Mask is_blocked(RowShape shape, FrameTable frames, Rows rows, Vec3 origin, Ve
     SHOW(direction.theta);
     SHOW(direction.phi);
     const Frame frame = load_frame(frames, frame_index(shape, direction));
-    Mask blocked = span_is_blocked(shape, rows, locate_part(shape, frame, direction, a, b, 0));
+    Mask blocked = part_is_blocked(shape, frame, rows, direction, a, b, 0);
     if (shape.subrays == 2) {
-        blocked = span_is_blocked(shape, rows, locate_part(shape, frame, direction, a, b, 1)) || blocked;
+        blocked = part_is_blocked(shape, frame, rows, direction, a, b, 1) || blocked;
     }
     return blocked;
 }

@@ -16,13 +16,14 @@ struct DirectionFrame {
     float v_z;
 };
 
-/// What a query must know of the array and of the parameters. 64 bytes, scalar layout.
+/// What a query must know of the array and of the parameters. 68 bytes, scalar layout.
 struct RowShape {
     int resolution;            // N, voxels along each axis
     int angles;                // of theta and of phi
     int words_per_row;         // 1, 2, 4 or 8
     int subrays;               // 1, or 2 where each half of the ray is looked up in a row of its own
-    float steps_per_radian;    // angles / pi
+    int index_bits;            // 0: the rows themselves; 20 or 32: indices into a dictionary of rows
+    int index_start;           // words before the indices: the dictionary
     float start_offset;        // voxels left out along the row at the surface
     float light_offset;        // voxels left out along the row at the light
     int clip_to_bounds;        // 1 where lights may lie outside the bounds
@@ -35,7 +36,7 @@ struct RowShape {
 SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(sightlines::DirectionFrame) == 32 && sizeof(sightlines::RowShape) == 64);
+static_assert(sizeof(sightlines::DirectionFrame) == 32 && sizeof(sightlines::RowShape) == 68);
 #endif
 
 #endif

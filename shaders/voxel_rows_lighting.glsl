@@ -12,6 +12,8 @@ layout(constant_id = 2) const int subrays = 1;
 layout(constant_id = 3) const int clip = 0;
 layout(constant_id = 4) const bool shade = true;
 layout(constant_id = 5) const uint kind_of_all_lights = 3u;   // 3: mixed
+layout(constant_id = 6) const int index_bits = 0;
+layout(constant_id = 7) const int index_start = 0;
 
 layout(push_constant, scalar) uniform Push { LightingJob job; };
 
@@ -33,12 +35,14 @@ LightRecord light_of(LightRecord held, uint k) {
 }
 
 void main() {
-    const uint pixel = job.first_pixel + gl_GlobalInvocationID.x;
+    const uint pixel = gl_GlobalInvocationID.x;
     RowShape query = job.query;
     query.resolution = resolution;
     query.words_per_row = words_per_row;
     query.subrays = subrays;
     query.clip_to_bounds = clip;
+    query.index_bits = index_bits;
+    query.index_start = index_start;
     const SurfacePoint surface = job.surfaces.v[pixel];
     const vec3 origin = ray_origin(query, surface.position, surface.normal);
     PixelSums sums = sums_so_far(pixel);

@@ -34,17 +34,16 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer SumTable { 
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer VerdictTable { uint v[]; };
 #endif
 
-/// The push constants: 128 bytes, scalar layout. Pixels first_pixel .. by one invocation each, over a range of lights.
+/// The push constants: 128 bytes, as many as every device takes. One invocation a pixel, over a range of lights.
 struct LightingJob {
     RowShape query;
+    uint first_light;                    // a multiple of 32 where verdicts are kept
     ADDRESS_OF(FrameTable) frames;
     ADDRESS_OF(Rows) rows;
     ADDRESS_OF(LightTable) lights;
     ADDRESS_OF(SurfaceTable) surfaces;
     ADDRESS_OF(SumTable) sums;
     ADDRESS_OF(VerdictTable) verdicts;   // a bit for each light, words_per_pixel words for each pixel
-    uint first_pixel;                    // of the surfaces; as many as there are invocations
-    uint first_light;                    // a multiple of 32 where verdicts are kept
     uint end_light;
     uint words_per_pixel;
 };

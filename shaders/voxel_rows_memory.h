@@ -31,6 +31,10 @@ FN UInt load_word(Rows rows, RowShape shape, UInt row, int word) {
 FN FourWords load_four_words(Rows rows, RowShape shape, UInt row, int word) {
     return gather_four_words(rows.v + word, row, shape.words_per_row);
 }
+FN UInt load_index(Rows rows, RowShape shape, UInt row) {
+    const uint* indices = rows.v + shape.index_start;
+    return shape.index_bits == 32 ? gather_words(indices, row, 1) : gather_20_bits(indices, row);
+}
 
 #else
 
@@ -90,6 +94,27 @@ FN FourWords load_four_words(Rows rows, RowShape shape, UInt row, int word) {
 }
 
 #endif
+
+FN UInt load_index_word(Rows rows, UInt word) {
+#ifdef ROWS_AS_TEXELS
+    const uvec4 words = texelFetch(row_texels, int(word >> 2));
+    const uvec2 two = (word & 2u) == 0u ? words.xy : words.zw;
+    return (word & 1u) == 0u ? two.x : two.y;
+#else
+    return rows.v[word];
+#endif
+}
+
+/// The row's index in the dictionary. Of 20 bits there are 8 in 5 words.
+FN UInt load_index(Rows rows, RowShape shape, UInt row) {
+    const uint start = uint(shape.index_start);
+    if (shape.index_bits == 32) return load_index_word(rows, start + row);
+    const uint bit = (row & 7u) * 20u;
+    const uint word = start + (row >> 3) * 5u + (bit >> 5);
+    const uint shift = bit & 31u;
+    return ((load_index_word(rows, word) >> shift) | shift_left(load_index_word(rows, word + 1u), 32u - shift)) &
+           0xfffffu;
+}
 #endif
 
 KERNEL_END

@@ -72,6 +72,8 @@ HWY_INLINE UInt operator&(UInt a, UInt b) { return {hn::And(a.v, b.v)}; }
 
 HWY_INLINE Mask operator<(Real a, Real b) { return {hn::Lt(a.v, b.v)}; }
 HWY_INLINE Mask operator>(Real a, Real b) { return {hn::Gt(a.v, b.v)}; }
+HWY_INLINE Mask operator<(Int a, Int b) { return {hn::RebindMask(RealTag(), hn::Lt(a.v, b.v))}; }
+HWY_INLINE Mask operator>(Int a, Int b) { return {hn::RebindMask(RealTag(), hn::Gt(a.v, b.v))}; }
 HWY_INLINE Mask operator==(Int a, Int b) { return {hn::RebindMask(RealTag(), hn::Eq(a.v, b.v))}; }
 HWY_INLINE Mask operator!=(UInt a, UInt b) { return {hn::RebindMask(RealTag(), hn::Ne(a.v, b.v))}; }
 HWY_INLINE Mask operator||(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
@@ -94,6 +96,8 @@ HWY_INLINE Int to_int(Real x) { return {hn::Vec<IntTag>{_mm512_cvttps_epi32(x.v.
 #else
 HWY_INLINE Int to_int(Real x) { return {hn::ConvertTo(IntTag(), x.v)}; }
 #endif
+HWY_INLINE Real to_real(Int x) { return {hn::ConvertTo(RealTag(), x.v)}; }
+HWY_INLINE Int to_signed(UInt x) { return {hn::BitCast(IntTag(), x.v)}; }
 HWY_INLINE UInt to_uint(Int x) { return {hn::BitCast(UIntTag(), x.v)}; }
 
 #if HWY_TARGET <= HWY_AVX2
@@ -140,7 +144,7 @@ HWY_INLINE Mask mask_of(std::uint32_t bits) {
     std::memcpy(bytes, &bits, sizeof bits);
     return {hn::LoadMaskBits(RealTag(), bytes)};
 }
-HWY_INLINE bool any(Mask mask) { return !hn::AllFalse(RealTag(), mask.m); }
+HWY_INLINE bool any_lane(Mask mask) { return !hn::AllFalse(RealTag(), mask.m); }
 
 /// words[index * stride] for each ray.
 HWY_INLINE UInt gather_words(const uint* words, UInt index, int stride) {
@@ -148,6 +152,17 @@ HWY_INLINE UInt gather_words(const uint* words, UInt index, int stride) {
     hn::Store(index.v, UIntTag(), each);
     for (std::size_t i = 0; i < lanes; ++i) gathered[i] = words[static_cast<std::size_t>(each[i]) * stride];
     return {hn::Load(UIntTag(), gathered)};
+}
+
+/// Number `index` of 20-bit numbers that lie one after the other, for each ray. Reads up to 12 bits behind it.
+HWY_INLINE UInt gather_20_bits(const uint* words, UInt index) {
+    alignas(64) uint each[lanes], gathered[lanes];
+    hn::Store(index.v, UIntTag(), each);
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(words);
+    for (std::size_t i = 0; i < lanes; ++i) std::memcpy(&gathered[i], bytes + std::size_t{each[i]} * 5 / 2, 4);
+    const auto odd = hn::And(index.v, hn::Set(UIntTag(), 1u));
+    const auto shifted = hn::Shr(hn::Load(UIntTag(), gathered), hn::ShiftLeft<2>(odd));
+    return {hn::And(shifted, hn::Set(UIntTag(), 0xfffffu))};
 }
 
 #if HWY_TARGET <= HWY_AVX3

@@ -3,13 +3,16 @@
 #include <array>
 
 #include "techniques/base/error.h"
+#include "techniques/baselines/baselines.h"
 #include "techniques/technique.h"
 #include "techniques/voxel_rows/voxel_rows.h"
 
 namespace sightlines {
 
 std::span<const Technique> techniques() {
-    static const std::array rows{voxel_rows::technique()};
+    static const std::array rows{
+        voxel_rows::technique(),  baselines::voxel_marching(),        baselines::row_marching(),
+        baselines::shadow_maps(), baselines::imperfect_shadow_maps(), baselines::ray_tracing()};
     return rows;
 }
 

@@ -94,6 +94,9 @@ struct BuildRequest {
     ParameterValues parameters;
     Backend backend = Backend::cpu;  ///< where it will be asked: memory may be placed for it; the content is the same
     int threads = 0;
+    /// What Technique::kept gave for the same scene and parameters at another time, or nothing. Saves work; the
+    /// structure is the same without.
+    std::any kept = {};
 };
 
 /// One row of the catalog. Plain functions; no state.
@@ -108,6 +111,10 @@ struct Technique {
     RenderResult (*render)(const Structure&, const RenderRequest&, Progress&);
     Trace (*trace)(const Structure&, const TraceRequest&);
     Statistics (*statistics)(const Structure&);
+    /// Whether it also runs on Backend::vulkan; where not, build and render refuse that with an InputError.
+    bool on_vulkan = true;
+    /// What the next moment of the same scene can use of this one; null: nothing.
+    std::any (*kept)(const Structure&) = nullptr;
 };
 
 /// The explicit list of techniques (techniques/catalog.cpp).

@@ -104,6 +104,8 @@ void add_session_flags(CLI::App& command, SessionFlags& flags) {
            "One of the scene's cameras by name, or a pose x,y,z:tx,ty,tz[:fov] (metres, degrees)", "C");
     option("--size", flags.size, "The picture's width and height in pixels", "WxH");
     option("--lights", flags.lights, "So many seeded point lights; 0: the scene's own", "N");
+    option("--virtual-lights", flags.virtual_lights,
+           "Indirect light: at most so many more lights where the light of the others falls", "N");
     option("--placement", flags.placement, "Where they are: volume (spread through the scene) or sphere (around it)",
            "P");
     option("--time", flags.time_s, "The moment of the scene's animation, in seconds", "S");
@@ -149,6 +151,9 @@ Session session_with_flags(Session session, const SessionFlags& flags) {
     check_size(session.size, "--size", "");
     if (!flags.lights.empty())
         session.lights.count = static_cast<std::uint32_t>(whole_number("--lights", flags.lights, 0, max_lights));
+    if (!flags.virtual_lights.empty())
+        session.lights.virtual_lights =
+            static_cast<std::uint32_t>(whole_number("--virtual-lights", flags.virtual_lights, 0, max_lights));
     if (!flags.placement.empty())
         session.lights.placement =
             static_cast<LightPlacement>(choice_of("--placement", flags.placement, {"volume", "sphere"}));

@@ -17,7 +17,7 @@ namespace sightlines {
 /// As written on the command line; empty: not given. Read only by `session_with_flags`, so that a bad value is an
 /// InputError that names its flag.
 struct SessionFlags {
-    std::string technique, scene, camera, size, lights, placement, time_s, backend, seed, pixel, light;
+    std::string technique, scene, camera, size, lights, virtual_lights, placement, time_s, backend, seed, pixel, light;
     std::vector<std::string> parameters;  ///< name=value
     bool reference = false;
 };

@@ -13,11 +13,13 @@ namespace sightlines {
 inline LightRecord light_record(const Light& light) {
     LightRecord record;
     record.position = light.position;
-    record.kind = light.kind == LightKind::point  ? light_point
-                  : light.kind == LightKind::spot ? light_spot
-                                                  : light_directional;
+    record.kind = light.kind == LightKind::point     ? light_point
+                  : light.kind == LightKind::spot    ? light_spot
+                  : light.kind == LightKind::surface ? light_surface
+                                                     : light_directional;
     record.intensity = light.intensity;
-    record.cosine_outer = std::cos(glm::radians(light.outer_cone_deg));
+    record.cosine_outer = light.kind == LightKind::surface ? light.nearest_m * light.nearest_m
+                                                           : std::cos(glm::radians(light.outer_cone_deg));
     record.direction = light.direction;
     record.cosine_inner = std::cos(glm::radians(light.inner_cone_deg));
     return record;

@@ -14,10 +14,6 @@ constexpr int tile_size = 8;  // pixels; four packets of 4x4
 constexpr int packet_side = 4;
 constexpr int packet_lanes = packet_side * packet_side;
 
-/// Metals reflect like mirrors; what lights them here is diffuse. They keep this share of their colour as diffuse
-/// reflectance so that they are not black.
-constexpr float metal_diffuse_share = 0.5f;
-
 struct CameraRay {
     vec3 origin, direction;  // unit direction
 };
@@ -28,13 +24,6 @@ CameraRay ray_through(const Camera& camera, const CameraFrame& frame, ImageSize 
     if (camera.kind == CameraKind::orthographic)
         return {camera.position + x * frame.right + y * frame.up, frame.forward};
     return {camera.position, glm::normalize(frame.forward + x * frame.right + y * frame.up)};
-}
-
-vec4 looked_up(const Scene& scene, const std::optional<TextureLookup>& lookup, uvec3 vertices, vec3 weights) {
-    if (!lookup || scene.texture_coordinates[lookup->coordinate_set].empty()) return vec4(1.0f);
-    const std::vector<vec2>& all = scene.texture_coordinates[lookup->coordinate_set];
-    const vec2 coordinates = weights.x * all[vertices.x] + weights.y * all[vertices.y] + weights.z * all[vertices.z];
-    return sample_texture(scene.textures[lookup->texture], transformed_coordinates(*lookup, coordinates));
 }
 
 vec3 unit_or(vec3 vector, vec3 otherwise) {
@@ -62,9 +51,9 @@ void write_surface(const Scene& scene, std::uint32_t triangle, vec2 barycentric,
     surfaces.shading_normal[pixel] = shading_normal;
 
     const Material& material = scene.materials[scene.triangle_materials[triangle]];
-    const vec3 base = material.base_color * vec3(looked_up(scene, material.base_color_texture, vertices, weights));
-    surfaces.albedo[pixel] = base * (1.0f - material.metallic + metal_diffuse_share * material.metallic);
-    surfaces.emission[pixel] = material.emissive * vec3(looked_up(scene, material.emissive_texture, vertices, weights));
+    surfaces.albedo[pixel] = diffuse_albedo(scene, triangle, barycentric);
+    surfaces.emission[pixel] =
+        material.emissive * vec3(looked_up(scene, material.emissive_texture, triangle, barycentric));
 }
 
 struct PrimaryRays {

@@ -90,4 +90,21 @@ float linear_from_srgb(std::uint8_t value) {
     return table[value];
 }
 
+vec4 looked_up(const Scene& scene, const std::optional<TextureLookup>& lookup, std::uint32_t triangle,
+               vec2 barycentric) {
+    if (!lookup || scene.texture_coordinates[lookup->coordinate_set].empty()) return vec4(1.0f);
+    const std::vector<vec2>& all = scene.texture_coordinates[lookup->coordinate_set];
+    const uvec3 vertices = scene.triangles[triangle];
+    const vec2 coordinates = (1.0f - barycentric.x - barycentric.y) * all[vertices.x] +
+                             barycentric.x * all[vertices.y] + barycentric.y * all[vertices.z];
+    return sample_texture(scene.textures[lookup->texture], transformed_coordinates(*lookup, coordinates));
+}
+
+vec3 diffuse_albedo(const Scene& scene, std::uint32_t triangle, vec2 barycentric) {
+    constexpr float metal_diffuse_share = 0.5f;
+    const Material& material = scene.materials[scene.triangle_materials[triangle]];
+    const vec3 base = material.base_color * vec3(looked_up(scene, material.base_color_texture, triangle, barycentric));
+    return base * (1.0f - material.metallic + metal_diffuse_share * material.metallic);
+}
+
 }  // namespace sightlines

@@ -25,6 +25,14 @@ BilinearTap bilinear_tap(ImageSize size, Wrap wrap_u, Wrap wrap_v, vec2 coordina
 /// is empty.
 vec4 sample_texture(const Texture& texture, vec2 coordinates);
 
+/// Diffuse reflectance of a triangle's material where the hit is, its texture looked up. A metal keeps half of its
+/// colour: under diffuse light it would be black otherwise.
+vec3 diffuse_albedo(const Scene& scene, std::uint32_t triangle, vec2 barycentric);
+
+/// A texture looked up where the hit is; white where the material has none or the scene has no coordinates for it.
+vec4 looked_up(const Scene& scene, const std::optional<TextureLookup>& lookup, std::uint32_t triangle,
+               vec2 barycentric);
+
 /// Linear value of an 8-bit sRGB channel.
 float linear_from_srgb(std::uint8_t value);
 

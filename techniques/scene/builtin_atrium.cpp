@@ -183,7 +183,7 @@ Scene atrium_at(double time_s) {
     add_furniture(builder);
     scene.cameras = cameras();
     scene.lights = own_lights(time_s);
-    scene.bounds = tight_bounds(scene);
+    scene.bounds = scene.motion_bounds = tight_bounds(scene);
     // The air of the open court, clear of the arcades, the plants and the fountain.
     scene.light_volume = {{-court_x + 0.8f, 2.1f, -court_z + 0.8f}, {court_x - 0.8f, eaves - 0.3f, court_z - 0.8f}};
     return scene;

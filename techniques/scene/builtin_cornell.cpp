@@ -111,7 +111,7 @@ Scene cornell_at(double time_s) {
     camera.vertical_field_of_view_deg = glm::degrees(2.0f * std::atan(0.0125f / 0.035f));
     scene.cameras = {camera};
     scene.lights = lamp_lights();
-    scene.bounds = tight_bounds(scene);
+    scene.bounds = scene.motion_bounds = tight_bounds(scene);
     scene.light_volume = {{0.3f, 3.5f, 0.3f}, {5.2f, 5.3f, 5.2f}};  // above the blocks
     return scene;
 }

@@ -1,4 +1,4 @@
-// The built-in scenes, one file each (builtin_cornell.cpp, builtin_atrium.cpp, builtin_trees.cpp).
+// The built-in scenes, one file each (builtin_cornell.cpp, builtin_atrium.cpp ...).
 #pragma once
 
 #include "techniques/scene/scene.h"
@@ -13,6 +13,26 @@ SceneModel atrium_model();
 
 /// Broad-leaved trees on rolling ground, after the scene *Trees* of Wang 2017: about 626,000 triangles, a moving sun.
 SceneModel trees_model();
+
+/// A formal garden after the scene *Garden* of Wang 2017: about 416,000 triangles, a moving sun.
+SceneModel garden_model();
+
+/// A city with two flying instances of one plane, after *Planes* of Wang 2017: about 982,000 triangles, rigid motion.
+SceneModel planes_model();
+
+/// An amusement park after the scene *Park* of Wang 2017: about 499,000 triangles, 7,088 lights of its own; rides turn.
+SceneModel park_model();
+
+/// A living room with a television as light, after Figure 8 of Wang 2017: 1,024 lights of its own; the picture moves.
+SceneModel tv_model();
+
+/// A church's nave after the scene *Cathedral* of Wang 2017: about 456,000 triangles; candles flicker.
+SceneModel cathedral_model();
+
+/// A running bear, which deforms, after the scene *Bear* of Wang 2017: the light version, and the one with as many
+/// triangles as the paper's, about 1,486,000.
+SceneModel bear_model();
+SceneModel bear_full_model();
 
 /// Lights that stand for a clear sky: `count` directional lights spread evenly over the upper hemisphere, which give
 /// `irradiance` (W/m^2) together to ground that lies open.

@@ -20,6 +20,14 @@ vec3 sky_direction(float azimuth_deg, float elevation_deg) {
     return {std::cos(elevation) * std::cos(azimuth), std::sin(elevation), std::cos(elevation) * std::sin(azimuth)};
 }
 
+/// "a, b and c"
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
+    return text;
+}
+
 }  // namespace
 
 std::vector<Light> sky_lights(int count, vec3 irradiance) {
@@ -55,7 +63,9 @@ Light sun_light(const SunArc& arc, double time_s) {
 }
 
 const std::vector<SceneModel>& builtin_scenes() {
-    static const std::vector<SceneModel> scenes = {cornell_model(), atrium_model(), trees_model()};
+    static const std::vector<SceneModel> scenes = {cornell_model(),   atrium_model(), trees_model(), garden_model(),
+                                                   cathedral_model(), planes_model(), bear_model(),  bear_full_model(),
+                                                   park_model(),      tv_model()};
     return scenes;
 }
 
@@ -71,7 +81,7 @@ SceneModel find_scene(const std::string& name_or_path, Progress& progress) {
     const std::string near = nearest_name(name_or_path, names);
     throw InputError("scene", name_or_path,
                      "there is no built-in scene of this name, and it is not a .gltf or .glb file",
-                     near.empty() ? "built in are cornell, atrium and trees" : "did you mean " + near + "?");
+                     near.empty() ? "built in are " + listed(names) : "did you mean " + near + "?");
 }
 
 }  // namespace sightlines

@@ -8,8 +8,8 @@
 
 namespace sightlines {
 
-/// All built-in scenes in the order that `list scenes` shows: cornell, atrium, trees. Making the list is free;
-/// the triangles are made by `SceneModel::at`.
+/// All built-in scenes in the order that `list scenes` shows, cornell first. Making the list is free; the triangles are
+/// made by `SceneModel::at`, once.
 const std::vector<SceneModel>& builtin_scenes();
 
 /// A built-in scene by name, or a `.gltf`/`.glb` file by path. InputError offers the nearest built-in name.

@@ -284,7 +284,7 @@ Scene trees_at(double time_s) {
     scene.lights = {sun_light(arc, time_s)};
     const std::vector<Light> sky = sky_lights(32, {1.3f, 1.6f, 2.1f});
     scene.lights.insert(scene.lights.end(), sky.begin(), sky.end());
-    scene.bounds = tight_bounds(scene);
+    scene.bounds = scene.motion_bounds = tight_bounds(scene);
     // Between the trees and just above them.
     scene.light_volume = {{-22.0f, 1.8f, -22.0f}, {22.0f, scene.bounds.highest.y + 1.0f, 22.0f}};
     return scene;

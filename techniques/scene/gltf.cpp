@@ -42,6 +42,7 @@ SceneModel model_of(GltfScene loaded) {
     model.duration_s = loaded.duration_s;
     Scene start = gltf_scene_at(loaded, 0.0);
     if (loaded.cameras.empty()) loaded.automatic_cameras = start.cameras;  // the same at all times
+    loaded.moving_bounds = gltf_moving_bounds(loaded);
     if (!(loaded.duration_s > 0.0)) {
         model.at = [still = std::make_shared<const Scene>(std::move(start))](double time_s) {
             Scene scene = *still;

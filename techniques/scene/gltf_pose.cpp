@@ -222,6 +222,38 @@ void place_cameras_and_lights(Scene& scene, const GltfScene& model, const Pose& 
         scene.cameras = model.automatic_cameras.empty() ? automatic_cameras(scene) : model.automatic_cameras;
 }
 
+Box3 united(Box3 box, const Box3& other) {
+    if (other.empty()) return box;
+    box.add(other.lowest);
+    box.add(other.highest);
+    return box;
+}
+
+/// Of the instance's vertices in the world, its deformed ones one by one, a rigid one's by the corners of its box.
+Box3 instance_bounds(const GltfScene& model, const GltfInstance& instance, const Pose& pose, const Box3& mesh_bounds) {
+    Box3 bounds;
+    const mat4& world_from_node = pose.world_from_node[instance.node];
+    if (!instance.deforms && instance.skin < 0) {
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::bvec3 high((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
+            bounds.add(transformed(world_from_node, glm::mix(mesh_bounds.lowest, mesh_bounds.highest, high)));
+        }
+        return bounds;
+    }
+    const std::vector<mat4> by_joint = instance.skin >= 0
+                                           ? skin_matrices(model.skins[static_cast<std::size_t>(instance.skin)], pose)
+                                           : std::vector<mat4>{};
+    for (const GltfPrimitive& primitive : model.meshes[instance.mesh].primitives) {
+        Vertices vertices = morphed(primitive, pose.weights[instance.node]);
+        if (!by_joint.empty() && primitive.joints_per_vertex > 0)
+            place_by_skin(vertices, primitive, by_joint);
+        else
+            place_rigidly(vertices, world_from_node);
+        for (const vec3 position : vertices.positions) bounds.add(position);
+    }
+    return bounds;
+}
+
 /// A texture is looked up only where the scene has the coordinates that it asks for.
 void drop_lookups_without_coordinates(Scene& scene) {
     for (Material& material : scene.materials)
@@ -242,10 +274,32 @@ Scene gltf_scene_at(const GltfScene& model, double time_s) {
     for (const GltfInstance& instance : model.instances) append_instance(scene, model, instance, pose);
     check_coordinates(model, scene);
     for (const vec3& position : scene.positions) scene.bounds.add(position);
+    scene.motion_bounds = united(scene.bounds, model.moving_bounds);
     scene.light_volume = scene.bounds;
     drop_lookups_without_coordinates(scene);
     place_cameras_and_lights(scene, model, pose);
     return scene;
+}
+
+Box3 gltf_moving_bounds(const GltfScene& model) {
+    constexpr int times = 32;
+    constexpr float margin = 0.02f;
+    std::vector<const GltfInstance*> moving;
+    for (const GltfInstance& instance : model.instances)
+        if (instance.deforms || model.nodes[instance.node].moves) moving.push_back(&instance);
+    Box3 reached;
+    if (moving.empty() || !(model.duration_s > 0.0)) return reached;
+    std::vector<Box3> mesh_bounds(model.meshes.size());
+    for (std::size_t i = 0; i < model.meshes.size(); ++i)
+        for (const GltfPrimitive& primitive : model.meshes[i].primitives)
+            for (const vec3 position : primitive.positions) mesh_bounds[i].add(position);
+    for (int i = 0; i < times; ++i) {
+        const Pose pose = pose_at(model, model.duration_s * i / times);
+        for (const GltfInstance* instance : moving)
+            reached = united(reached, instance_bounds(model, *instance, pose, mesh_bounds[instance->mesh]));
+    }
+    const vec3 about = margin * reached.size(), farthest(gltf_limits::coordinate_m);
+    return {glm::max(reached.lowest - about, -farthest), glm::min(reached.highest + about, farthest)};
 }
 
 }  // namespace sightlines

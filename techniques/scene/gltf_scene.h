@@ -64,10 +64,14 @@ struct GltfScene {
     std::vector<Camera> cameras;            ///< lens and name only; the node places them
     std::vector<Light> lights;              ///< colour, intensity and cone only
     std::vector<Camera> automatic_cameras;  ///< where the file has none: those at time 0, at all times
+    Box3 moving_bounds;                     ///< gltf_moving_bounds of this; empty until it has been asked
     std::vector<std::string> notes;
 };
 
 /// Everything in the world at `time_s` (looped). InputError where the nodes carry a vertex out of range.
 Scene gltf_scene_at(const GltfScene& model, double time_s);
+
+/// What moving and deforming instances reach, at 32 even times and 2 % about; empty where nothing moves.
+Box3 gltf_moving_bounds(const GltfScene& model);
 
 }  // namespace sightlines

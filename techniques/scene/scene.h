@@ -56,14 +56,16 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
-enum class LightKind { point, spot, directional };
+/// `surface`: a lit patch of a surface as a light; it shines to its front only, as the cosine from its normal.
+enum class LightKind { point, spot, directional, surface };
 
 struct Light {
     LightKind kind = LightKind::point;
     vec3 position{0.0f};                ///< m
-    vec3 direction{0.0f, -1.0f, 0.0f};  ///< unit, the way the light travels (spot, directional)
-    vec3 intensity{1.0f};               ///< W/sr (point, spot); W/m^2 for a directional light. Linear Rec. 709
+    vec3 direction{0.0f, -1.0f, 0.0f};  ///< unit, the way the light travels (spot, directional); a surface's normal
+    vec3 intensity{1.0f};  ///< W/sr (point, spot; a surface: along its normal); directional: W/m^2. Linear Rec. 709
     float inner_cone_deg = 0.0f, outer_cone_deg = 45.0f;  ///< half angles of a spot
+    float nearest_m = 0.0f;  ///< of a surface: what is nearer gets as much as from there, so that no corner burns out
 
     bool operator==(const Light&) const = default;
 };
@@ -89,11 +91,12 @@ struct Scene {
     std::vector<std::uint32_t> triangle_materials;  ///< [T], each < materials.size()
     std::vector<Material> materials;                ///< at least one
     std::vector<Texture> textures;
-    std::vector<Part> parts;         ///< cover all triangles, in order
-    std::vector<Camera> cameras;     ///< at least one (framed automatically where a file has none)
-    std::vector<Light> lights;       ///< may be empty
-    Box3 bounds;                     ///< of the triangles' vertices; empty without triangles
-    Box3 light_volume;               ///< where `--lights N` are spread; the bounds unless the scene says better
+    std::vector<Part> parts;      ///< cover all triangles, in order
+    std::vector<Camera> cameras;  ///< at least one (framed automatically where a file has none)
+    std::vector<Light> lights;    ///< may be empty
+    Box3 bounds;                  ///< of the triangles' vertices; empty without triangles
+    Box3 motion_bounds;           ///< of the vertices at all times of the animation; equals bounds where nothing moves
+    Box3 light_volume;            ///< where `--lights N` are spread; the bounds unless the scene says better
     std::vector<std::string> notes;  ///< for standard error: what was left out or approximated
 };
 

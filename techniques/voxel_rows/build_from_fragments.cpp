@@ -11,6 +11,7 @@
 
 #include "techniques/base/parallel.h"
 #include "techniques/scene/surface_fragments.h"
+#include "techniques/voxel_rows/moving_rows.h"
 #include "techniques/voxel_rows/row_array.h"
 #include "techniques/voxel_rows/slice_bits.h"
 
@@ -103,39 +104,50 @@ void add_areas(const PlaneMap& map, const SlicedSamples& sliced, std::size_t beg
     }
 }
 
+/// What is splatted, and how.
+struct Splat {
+    std::vector<SurfaceSample> samples;
+    double coverage = 0.0;
+    float cell_m = 0.0f;  ///< of the fragment grid
+    Storing storing = Storing::replace;
+};
+
 /// All directions of one theta: each slice is added up, packed, and stored as rows and, transposed, as its partner's.
-void splat_theta(RowArray& array, const RowShape& shape, std::span<const SurfaceSample> samples, int theta,
-                 double coverage, float cell_m, const Progress& progress) {
+/// Marks the slices that hold samples in `touched`, [N].
+void splat_theta(RowArray& array, const RowShape& shape, const Splat& splat, int theta, std::span<std::uint8_t> touched,
+                 const Progress& progress) {
     const RowGrid& grid = array.grid;
     const int n = grid.resolution, half = grid.angles / 2;
     const double angle = theta * std::numbers::pi / grid.angles;
     const vec3 horizontal(std::cos(angle), 0.0, std::sin(angle));
     const int first_direction = theta * grid.angles;
     const SlicedSamples sliced =
-        slice_samples(samples, shape, grid.frames[static_cast<std::size_t>(first_direction)], horizontal);
+        slice_samples(splat.samples, shape, grid.frames[static_cast<std::size_t>(first_direction)], horizontal);
     SliceBits along_u(n), along_w(n), transposed(n);
     SliceCounts areas(n);
     for (int v = 0; v < n; ++v) {
         const std::size_t begin = sliced.first[static_cast<std::size_t>(v)];
         const std::size_t end = sliced.first[static_cast<std::size_t>(v) + 1];
-        if (begin == end) continue;  // the array starts out clear
-        progress.check();            // a theta takes longer than whoever cancels wants to wait
+        if (begin == end) continue;  // stays as it was
+        touched[static_cast<std::size_t>(v)] = 1;
+        progress.check();  // a theta takes longer than whoever cancels wants to wait
         const auto area_in_all =
             std::accumulate(&sliced.area[begin], &sliced.area[begin] + (end - begin), std::uint64_t{0});
         for (int phi = 0; phi < half; ++phi) {
             const int direction = first_direction + phi;
             const DirectionFrame& frame = grid.frames[static_cast<std::size_t>(direction)];
             const DirectionFrame& partner = grid.frames[static_cast<std::size_t>(direction + half)];
-            const Needed needed{area_needed(frame, coverage, cell_m), area_needed(partner, coverage, cell_m)};
+            const Needed needed{area_needed(frame, splat.coverage, splat.cell_m),
+                                area_needed(partner, splat.coverage, splat.cell_m)};
             const PlaneMap map = plane_map(frame, horizontal);
             add_areas<false>(map, sliced, begin, end, n, areas);
             if (take_bits(areas, needed, along_u, along_w) != area_in_all) {  // a voxel overflowed: rare
                 add_areas<true>(map, sliced, begin, end, n, areas);
                 take_bits(areas, needed, along_u, along_w);
             }
-            store_slice(array, shape, direction, v, along_u);
+            store_slice(array, shape, direction, v, along_u, splat.storing);
             transpose(along_w, transposed);
-            store_slice(array, shape, direction + half, v, transposed);
+            store_slice(array, shape, direction + half, v, transposed, splat.storing);
         }
     }
     finish_storing();
@@ -185,23 +197,62 @@ FragmentGrid fragment_grid(const RowGrid& grid, double samples_per_voxel) {
     return {grid.bounds, glm::max(ivec3(cells), ivec3(1))};
 }
 
+namespace {
+
+/// Splats the scene's surface into the array. Returns the slices that it touched.
+SliceMarks splat_surface(RowArray& array, const Scene& scene, const BuildOptions& options, Storing storing,
+                         Progress& progress) {
+    const RowGrid& grid = array.grid;
+    const float cell_m = fragment_cell_m(grid, options.samples_per_voxel);
+    const auto inset_m = static_cast<float>(options.inset) * fragment_cell_m(grid, 1.0);
+    const std::vector<Fragment> fragments =
+        surface_fragments(scene, fragment_grid(grid, options.samples_per_voxel), options.threads, progress);
+    const Splat splat{surface_samples(scene, fragments, grid.bounds.centre(), inset_m, cell_m), options.coverage,
+                      cell_m, storing};
+    array.fragments += splat.samples.size();
+    progress.begin("splatting fragments into all directions", grid.angles);
+    const RowShape shape = make_shape(grid);
+    const auto n = static_cast<std::size_t>(grid.resolution);
+    SliceMarks touched(static_cast<std::size_t>(grid.angles) * n);
+    parallel_for(grid.angles, options.threads, [&](std::int64_t theta) {
+        splat_theta(array, shape, splat, static_cast<int>(theta), std::span(touched).subspan(theta * n, n), progress);
+        progress.advance();
+    });
+    return touched;
+}
+
+}  // namespace
+
 RowArray build_from_fragments(const Scene& scene, const BuildOptions& options, Progress& progress) {
     RowArray array = allocate_array(scene, options);
     const auto start = std::chrono::steady_clock::now();
-    const FragmentGrid cells = fragment_grid(array.grid, options.samples_per_voxel);
-    const float cell_m = fragment_cell_m(array.grid, options.samples_per_voxel);
-    const auto inset_m = static_cast<float>(options.inset) * fragment_cell_m(array.grid, 1.0);
-    const std::vector<SurfaceSample> samples = surface_samples(
-        scene, surface_fragments(scene, cells, options.threads, progress), array.grid.bounds.centre(), inset_m, cell_m);
-    array.fragments = samples.size();
-    progress.begin("splatting fragments into all directions", array.grid.angles);
-    const RowShape shape = make_shape(array.grid);
-    parallel_for(array.grid.angles, options.threads, [&](std::int64_t theta) {
-        splat_theta(array, shape, samples, static_cast<int>(theta), options.coverage, cell_m, progress);
-        progress.advance();
-    });
+    splat_surface(array, scene, options, Storing::replace, progress);
     array.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return array;
+}
+
+SliceMarks splat_onto(RowArray& array, const Scene& moving, const BuildOptions& options, Progress& progress) {
+    return splat_surface(array, moving, options, Storing::add, progress);
+}
+
+void restore_slices(RowArray& array, const RowArray& fixed, const SliceMarks& slices, int threads) {
+    const RowGrid& grid = array.grid;
+    const RowShape shape = make_shape(grid);
+    const int n = grid.resolution;
+    const auto eight_rows = static_cast<std::size_t>(grid.words_per_row) * 8;
+    parallel_for(grid.angles, threads, [&](std::int64_t theta) {
+        for (int v = 0; v < n; ++v) {
+            if (slices[static_cast<std::size_t>(theta * n + v)] == 0) continue;
+            for (int phi = 0; phi < grid.angles; ++phi) {
+                for (int w = 0; w < n; w += 8) {  // eight rows lie together
+                    const std::size_t first =
+                        scalar_kernel::row_index(shape, {static_cast<int>(theta), phi}, v, w) * eight_rows / 8;
+                    std::ranges::copy(fixed.words.words.subspan(first, eight_rows),
+                                      array.words.words.subspan(first, eight_rows).begin());
+                }
+            }
+        }
+    });
 }
 
 }  // namespace sightlines::voxel_rows

@@ -15,10 +15,11 @@
 
 #include "shaders/voxel_rows.h"
 #include "techniques/base/parallel.h"
+#include "techniques/pixel_groups.h"
 #include "techniques/rays/light_records.h"
 #include "techniques/refinement.h"
-#include "techniques/voxel_rows/pixel_groups.h"
 #include "techniques/voxel_rows/query.h"
+#include "techniques/voxel_rows/row_bits.h"
 
 namespace sightlines::voxel_rows {
 namespace {
@@ -55,6 +56,7 @@ struct PendingRays {
 
 /// The rays that a batch of vectors of pixels asks of one light, packed so that no lane is idle.
 struct Batch {
+    std::uint32_t light = 0;
     std::size_t first = 0, count = 0;                ///< the vectors of pixels
     std::array<std::uint32_t, batch_vectors> asked;  ///< which pixels of each ask, bit by lane
     std::size_t rays = 0;                            ///< in all
@@ -87,9 +89,31 @@ HWY_INLINE void prefetch_rows(const wide::Rows& rows, const UInt& row, int words
         __builtin_prefetch(rows.v + static_cast<std::size_t>(index[lane]) * words_per_row);
 }
 
+/// The same for the indices of some rays' rows.
+HWY_INLINE void prefetch_indices(const wide::Rows& rows, const RowShape& query, const UInt& row) {
+    constexpr std::size_t step = lanes == 16 ? 3 : 1;
+    const auto* number = reinterpret_cast<const uint*>(&row);
+    const auto* bytes = reinterpret_cast<const char*>(rows.v + query.index_start);
+    for (std::size_t lane = 0; lane < lanes; lane += step)
+        __builtin_prefetch(bytes + std::size_t{number[lane]} * static_cast<std::size_t>(query.index_bits) / 8);
+}
+
+/// Dictionary rows lie anywhere: neighbours share only those that they have in common.
+HWY_INLINE void prefetch_dictionary(const wide::Rows& rows, const UInt& row, int words_per_row) {
+    const auto* index = reinterpret_cast<const uint*>(&row);
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+        __builtin_prefetch(rows.v + static_cast<std::size_t>(index[lane]) * words_per_row);
+}
+
+/// What the batch's rays need next: rows, or indices where the array is compressed.
 HWY_INLINE void prefetch(const TileWork& work, const RowShape& query, const PendingRays& rays) {
-    for (int part = 0; part < query.subrays; ++part)
-        prefetch_rows(work.rows, rays.spans[part].row, query.words_per_row);
+    for (int part = 0; part < query.subrays; ++part) {
+        const UInt& row = rays.spans[part].row;
+        if (query.index_bits == 0)
+            prefetch_rows(work.rows, row, query.words_per_row);
+        else
+            prefetch_indices(work.rows, query, row);
+    }
 }
 
 /// Packs the rays of the batch's pixels that face the light, as the kernel looks them up: off the surface, and inside
@@ -145,6 +169,17 @@ HWY_INLINE void locate(const TileWork& work, const RowShape& query, const LightR
     for (std::size_t k = 0; k < vectors; ++k) prefetch(work, query, batch.pending[k]);
 }
 
+/// From the array's rows to the dictionary's, whose bits are then on their way from memory.
+HWY_INLINE void look_up_indices(const TileWork& work, const RowShape& query, Batch& batch) {
+    for (std::size_t k = 0; k < batch.vectors(); ++k) {
+        for (int part = 0; part < query.subrays; ++part) {
+            UInt& row = batch.pending[k].spans[part].row;
+            row = wide::stored_row(query, work.rows, row);
+            prefetch_dictionary(work.rows, row, query.words_per_row);
+        }
+    }
+}
+
 /// The lowest bits of `packed` at the places of the mask's set bits.
 HWY_INLINE std::uint32_t deposit_bits(std::uint32_t packed, std::uint32_t mask) {
 #ifdef __BMI2__
@@ -183,9 +218,9 @@ HWY_INLINE void look(const TileWork& work, const RowShape& query, const Batch& b
 
 /// Adds the batch's answers to the sums of its pixels.
 template <bool shade>
-HWY_INLINE void add_answers(const TileWork& work, std::uint32_t light, const Batch& batch,
+HWY_INLINE void add_answers(const TileWork& work, const Batch& batch,
                             const std::array<std::uint32_t, batch_vectors + 2>& packed, TileSums& sums) {
-    const LightRecord record = work.lights[light];
+    const LightRecord record = work.lights[batch.light];
     std::size_t ray = 0;
     for (std::size_t k = 0; k < batch.count; ++k) {
         const std::uint32_t asked_bits = batch.asked[k];
@@ -208,61 +243,74 @@ HWY_INLINE void add_answers(const TileWork& work, std::uint32_t light, const Bat
                 float* sum = &sums.irradiance[channel][start];
                 wide::store(wide::fused(given, wide::splat(record.intensity[channel]), wide::load(sum)), sum);
             }
-            if (work.verdicts != nullptr) keep_verdicts(work, start, light, blocked_bits);
+            if (work.verdicts != nullptr) keep_verdicts(work, start, batch.light, blocked_bits);
         }
     }
 }
 
-/// All lights over one tile, batch after batch of its vectors; a batch's rows are on their way from memory while the
-/// next one is located. `words_per_row` and `subrays` are repeated as constants, so that the loops over words unroll.
-template <bool shade, int words_per_row, int subrays>
+/// All lights over one tile, batch after batch of its vectors. What a batch needs next from memory is on its way while
+/// later ones are located: its indices where there are any, then its rows. What the template repeats of the query is
+/// constant, so that loops unroll and an array without a dictionary pays nothing for it.
+template <bool shade, int words_per_row, int subrays, int index_bits>
 void ask_tile(const TileWork& work, TileSums& sums) {
     RowShape query = work.query;
     query.words_per_row = words_per_row;
     query.subrays = subrays;
+    query.index_bits = index_bits;
+    constexpr std::size_t stages = index_bits == 0 ? 2 : 3;
     const std::size_t vectors = work.pixels.pixel.size() / lanes;
-    std::array<Batch, 2> batches;
+    std::array<Batch, stages> batches;
     std::array<std::uint32_t, batch_vectors + 2> blocked{};
-    std::size_t current = 0;
-    std::uint32_t light_before = 0;
+    std::size_t newest = 0;
+    // Of the older batches: the last but one gets its rows, the oldest its answers. They start out empty.
+    const auto go_on = [&] {
+        if constexpr (index_bits != 0) look_up_indices(work, query, batches[(newest + stages - 1) % stages]);
+        const Batch& oldest = batches[(newest + 1) % stages];
+        look(work, query, oldest, blocked);
+        add_answers<shade>(work, oldest, blocked, sums);
+        newest = (newest + 1) % stages;
+    };
     for (std::uint32_t light = 0; light < work.lights.size(); ++light) {
         if (work.progress != nullptr && light % lights_between_checks == 0) work.progress->check();
         const LightRecord record = work.lights[light];
         for (std::size_t first = 0; first < vectors; first += batch_vectors) {
-            Batch& now = batches[current];
+            Batch& now = batches[newest];
+            now.light = light;
             now.first = first;
             now.count = std::min(batch_vectors, vectors - first);
             gather_asked(work, query, record, now);
             locate(work, query, record, now);
-            current = 1 - current;
-            look(work, query, batches[current], blocked);
-            add_answers<shade>(work, light_before, batches[current], blocked, sums);
-            light_before = light;
+            go_on();
         }
     }
-    look(work, query, batches[1 - current], blocked);
-    add_answers<shade>(work, light_before, batches[1 - current], blocked, sums);
+    for (std::size_t stage = 1; stage < stages; ++stage) {
+        batches[newest].count = batches[newest].rays = 0;
+        go_on();
+    }
 }
 
-template <bool shade, int subrays>
+template <bool shade, int words_per_row, int subrays>
 void ask_tile(const TileWork& work, TileSums& sums) {
-    switch (work.query.words_per_row) {
-        case 1:
-            return ask_tile<shade, 1, subrays>(work, sums);
-        case 2:
-            return ask_tile<shade, 2, subrays>(work, sums);
-        case 4:
-            return ask_tile<shade, 4, subrays>(work, sums);
+    switch (work.query.index_bits) {
+        case 0:
+            return ask_tile<shade, words_per_row, subrays, 0>(work, sums);
+        case 20:
+            return ask_tile<shade, words_per_row, subrays, 20>(work, sums);
         default:
-            return ask_tile<shade, 8, subrays>(work, sums);
+            return ask_tile<shade, words_per_row, subrays, 32>(work, sums);
     }
+}
+
+template <bool shade, int words_per_row>
+void ask_tile(const TileWork& work, TileSums& sums) {
+    if (work.query.subrays == 1) return ask_tile<shade, words_per_row, 1>(work, sums);
+    return ask_tile<shade, words_per_row, 2>(work, sums);
 }
 
 template <bool shade>
 void ask_tile(const TileWork& work, TileSums& sums) {
     if (work.lights.empty()) return;
-    if (work.query.subrays == 1) return ask_tile<shade, 1>(work, sums);
-    return ask_tile<shade, 2>(work, sums);
+    with_row_length(work.query.words_per_row, [&](auto length) { ask_tile<shade, length()>(work, sums); });
 }
 
 std::vector<PixelRect> tiles_of(ImageSize size) {

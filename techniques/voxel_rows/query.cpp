@@ -19,7 +19,7 @@ RowShape make_query(const RowArray& array, const ParameterValues& parameters, st
     const auto value = [&](std::string_view name) {
         return static_cast<float>(parameter_value(technique().parameters, parameters, name));
     };
-    RowShape query = make_shape(array.grid);
+    RowShape query = make_shape(array);
     const vec3 size = array.grid.bounds.size();
     query.subrays = static_cast<int>(value("subrays"));
     query.start_offset = value("start_offset");

@@ -1,5 +1,6 @@
 #include "techniques/voxel_rows/row_array.h"
 
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -60,16 +61,24 @@ RowShape make_shape(const RowGrid& grid) {
     shape.angles = grid.angles;
     shape.words_per_row = grid.words_per_row;
     shape.subrays = 1;
-    shape.steps_per_radian = static_cast<float>(grid.angles / std::numbers::pi);
     shape.centre = grid.bounds.centre();
     shape.half_size = 0.5f * grid.bounds.size();
     shape.reach_m = 2.0f * grid.bounds.diagonal();
     return shape;
 }
 
+RowShape make_shape(const RowArray& array) {
+    RowShape shape = make_shape(array.grid);
+    shape.index_bits = array.dictionary.index_bits;
+    shape.index_start = static_cast<int>(array.dictionary.rows) * shape.words_per_row;
+    return shape;
+}
+
 RowArray allocate_array(const Scene& scene, const BuildOptions& options) {
     RowArray array;
-    array.grid = make_grid(scene.bounds, options.resolution, options.angle_step_deg);
+    // What moves stays inside the grid at all times.
+    const Box3& bounds = scene.motion_bounds.empty() ? scene.bounds : scene.motion_bounds;
+    array.grid = make_grid(bounds, options.resolution, options.angle_step_deg);
     const std::size_t words = array.grid.rows() * static_cast<std::size_t>(array.grid.words_per_row);
     array.words = options.allocate ? options.allocate(words) : allocate_huge(words);
     return array;
@@ -77,7 +86,14 @@ RowArray allocate_array(const Scene& scene, const BuildOptions& options) {
 
 std::span<const std::uint32_t> row_words(const RowArray& array, std::uint32_t row) {
     const auto length = static_cast<std::size_t>(array.grid.words_per_row);
-    return array.words.words.subspan(row * length, length);
+    const std::uint32_t stored = scalar_kernel::stored_row(make_shape(array), {array.words.words.data()}, row);
+    return array.words.words.subspan(stored * length, length);
+}
+
+DictionaryEntry dictionary_entry(const RowArray& array, std::uint32_t row) {
+    assert(array.dictionary.index_bits != 0);
+    const std::uint32_t index = scalar_kernel::stored_row(make_shape(array), {array.words.words.data()}, row);
+    return {index, array.dictionary.frequencies[index]};
 }
 
 std::vector<std::uint8_t> unpack_voxelization(const RowArray& array, int direction) {

@@ -1,5 +1,5 @@
-// The 2D array of rotated voxelizations (Wang 2017, section 3), uncompressed: one row of bits for each line through the
-// scene in each of a dense set of directions.
+// The 2D array of rotated voxelizations (Wang 2017, section 3): one row of bits for each line through the scene in each
+// of a dense set of directions; as it is, or as an index into a dictionary of rows.
 #pragma once
 
 #include <functional>
@@ -28,9 +28,26 @@ struct RowGrid {
     }
 };
 
+/// What a compressed array's words hold besides the indices, and how well the dictionary serves it (Algorithm 2).
+struct RowDictionary {
+    int index_bits = 0;                      ///< 20 or 32; 0: the array is not compressed
+    std::uint32_t rows = 0;                  ///< the most frequent ones of the array, most frequent first
+    int steps = 0;                           ///< c = 0 to steps - 1
+    std::vector<std::uint32_t> frequencies;  ///< [rows] how often each occurs in the array before
+    std::uint64_t distinct_rows = 0;         ///< of the array before
+    std::vector<std::uint64_t> rows_mapped;  ///< [steps] rows of the array that each step has mapped
+    std::uint64_t rows_left_over = 0;        ///< that no step has
+    double differing_share =
+        0.0;  ///< of the rays of all rows: those answered differently (dictionary.h, differing_rays)
+    double seconds = 0.0;
+};
+
 struct RowArray {
     RowGrid grid;
-    HugeBuffer words;  ///< [rows() * words_per_row] in the order of row_index()
+    /// [rows() * words_per_row] in the order of row_index(). Compressed: the dictionary's rows, [dictionary.rows *
+    /// words_per_row], then an index for each row in the same order, bit after bit.
+    HugeBuffer words;
+    RowDictionary dictionary;
     double build_seconds = 0.0;
     std::size_t fragments = 0;  ///< surface samples that were splatted (0: built directly)
 };
@@ -50,8 +67,9 @@ struct BuildOptions {
 /// Frames for every direction, each box fitted to the scene's bounds.
 RowGrid make_grid(const Box3& bounds, int resolution, double angle_step_deg);
 
-/// What the kernel must know of the grid; the query's offsets are left at zero.
+/// What the kernel must know of the grid, or of the array; the query's offsets are left at zero.
 RowShape make_shape(const RowGrid& grid);
+RowShape make_shape(const RowArray& array);
 
 /// A clear array for the scene. EnvironmentError where the memory is not there.
 RowArray allocate_array(const Scene& scene, const BuildOptions& options);
@@ -68,8 +86,16 @@ RowArray build_from_fragments(const Scene& scene, const BuildOptions& options, P
 /// The voxelization of one direction, unpacked for showing: occupied[(w * N + v) * N + u] != 0.
 std::vector<std::uint8_t> unpack_voxelization(const RowArray& array, int direction);
 
-/// The 32-bit words of one row: `row` is row_index(direction, v, w).
+/// The 32-bit words of one row, or of the dictionary's row for it: `row` is row_index(direction, v, w).
 std::span<const std::uint32_t> row_words(const RowArray& array, std::uint32_t row);
+
+/// A row of the dictionary and how often it occurred in the array.
+struct DictionaryEntry {
+    std::uint32_t index = 0, frequency = 0;
+};
+
+/// What stands for the row in a compressed array.
+DictionaryEntry dictionary_entry(const RowArray& array, std::uint32_t row);
 
 /// The axis v of a frame, in voxels per metre.
 vec3 level_axis(const DirectionFrame& frame);

@@ -128,32 +128,40 @@ void collect_eight(const SliceBits& bits, int w, std::uint32_t* rows) {
                         &bits.words[static_cast<std::size_t>(block * bits.side + w + k)], bytes);
 }
 
-/// Eight rows lie together in memory. They are written around the cache: nothing here reads them again.
+/// Eight rows lie together in memory. They are written around the cache where they replace others: nothing here reads
+/// them again.
 template <int words_per_row>
-void store_rows(RowArray& array, const RowShape& shape, scalar_kernel::Direction steps, int v, const SliceBits& bits) {
+void store_rows(RowArray& array, const RowShape& shape, scalar_kernel::Direction steps, int v, const SliceBits& bits,
+                Storing storing) {
     constexpr std::size_t words = std::size_t{8} * words_per_row;
     const hn::CappedTag<std::uint32_t, std::min<std::size_t>(words, 16)> tag;
     alignas(64) std::array<std::uint32_t, words> rows;
     for (int w = 0; w < shape.resolution; w += 8) {
         collect_eight<words_per_row>(bits, w, rows.data());
         std::uint32_t* const to = &array.words.words[scalar_kernel::row_index(shape, steps, v, w) * words_per_row];
-        for (std::size_t k = 0; k < words; k += hn::Lanes(tag)) hn::Stream(hn::Load(tag, &rows[k]), tag, to + k);
+        for (std::size_t k = 0; k < words; k += hn::Lanes(tag)) {
+            const auto row = hn::Load(tag, &rows[k]);
+            if (storing == Storing::replace)
+                hn::Stream(row, tag, to + k);
+            else
+                hn::Store(hn::Or(row, hn::Load(tag, to + k)), tag, to + k);
+        }
     }
 }
 
 }  // namespace
 
-void store_slice(RowArray& array, const RowShape& shape, int direction, int v, const SliceBits& bits) {
+void store_slice(RowArray& array, const RowShape& shape, int direction, int v, const SliceBits& bits, Storing storing) {
     const scalar_kernel::Direction steps{direction / shape.angles, direction % shape.angles};
     switch (shape.words_per_row) {
         case 1:
-            return store_rows<1>(array, shape, steps, v, bits);
+            return store_rows<1>(array, shape, steps, v, bits, storing);
         case 2:
-            return store_rows<2>(array, shape, steps, v, bits);
+            return store_rows<2>(array, shape, steps, v, bits, storing);
         case 4:
-            return store_rows<4>(array, shape, steps, v, bits);
+            return store_rows<4>(array, shape, steps, v, bits, storing);
         default:
-            return store_rows<8>(array, shape, steps, v, bits);
+            return store_rows<8>(array, shape, steps, v, bits, storing);
     }
 }
 

@@ -54,8 +54,12 @@ std::uint64_t take_bits(SliceCounts& counts, Needed needed, SliceBits& along_u, 
 
 void transpose(const SliceBits& bits, SliceBits& transposed);
 
+/// Whether rows take the place of those that the array holds, or their bits are set in addition.
+enum class Storing { replace, add };
+
 /// Writes the slice's rows to their places: row w of the slice is the row (v, w) of `direction`.
-void store_slice(RowArray& array, const RowShape& shape, int direction, int v, const SliceBits& bits);
+void store_slice(RowArray& array, const RowShape& shape, int direction, int v, const SliceBits& bits,
+                 Storing storing = Storing::replace);
 
 /// What this thread has stored may be read by others from here on.
 void finish_storing();

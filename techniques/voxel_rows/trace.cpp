@@ -58,7 +58,9 @@ void add_geometry(std::vector<TraceStep>& steps, const RowArray& array, const Se
             const auto value = std::ranges::find(from.values, name, &TraceValue::name);
             return static_cast<int>(std::get<std::int64_t>(value->value));
         };
-        if (step.paper == "Algorithm 3, line 3")
+        // Line 3 comes twice where there is a dictionary; only its first step knows where the row lies.
+        if (step.paper == "Algorithm 3, line 3" &&
+            std::ranges::find(step.values, "v", &TraceValue::name) != step.values.end())
             step.geometry.push_back(
                 row_box("row", world, whole(step, "v"), whole(step, "w"), 0, array.grid.resolution - 1));
         if (step.paper == "Algorithm 3, line 4")

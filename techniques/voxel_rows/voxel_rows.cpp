@@ -2,6 +2,11 @@
 
 #include <array>
 
+#include "techniques/base/huge_buffer.h"
+#include "techniques/scene/moving_parts.h"
+#include "techniques/voxel_rows/dictionary.h"
+#include "techniques/voxel_rows/memory_need.h"
+#include "techniques/voxel_rows/moving_rows.h"
 #include "techniques/voxel_rows/query.h"
 #include "techniques/voxel_rows/vulkan_backend.h"
 
@@ -10,13 +15,20 @@ namespace {
 
 struct BuiltRows {
     RowArray array;
+    Moment moment;                                ///< whose memory the array is, where the scene moves
     std::shared_ptr<const VulkanRows> on_device;  ///< where it was built for Vulkan
 };
 using BuiltRowsPointer = std::shared_ptr<const BuiltRows>;
 
 constexpr std::array<std::string_view, 2> builds{"fragments", "direct"};
 
-constexpr std::array<Parameter, 10> parameters{{
+constexpr std::array<std::string_view, 2> dictionary_choices{"frequent", "covering"};
+constexpr std::array<std::string_view, 2> leftover_rows{"random", "nearest"};
+constexpr std::array<std::string_view, 2> index_bits{"20", "32"};
+
+constexpr std::array<std::string_view, 2> motions{"changes", "whole"};
+
+constexpr std::array<Parameter, 17> parameters{{
     {"resolution", "Resolution", "voxels", ParameterKind::integer, ParameterAffects::structure, 32, 256, 128, 128,
      "Voxels along each axis of each rotated voxelization; a row holds that many bits."},
     {"angle_step", "Angle step", "deg", ParameterKind::real, ParameterAffects::structure, 1, 6, 2, 2,
@@ -25,6 +37,10 @@ constexpr std::array<Parameter, 10> parameters{{
      "Fragments splatted into all directions (Algorithm 6), or each direction voxelised from the triangles (Algorithm "
      "1).",
      builds},
+    {"motion", "Scenes that move", "", ParameterKind::choice, ParameterAffects::structure, 0, 1, 0, 1,
+     "What is voxelised again at another time: only what moves, over what stands still, or the whole scene (as the "
+     "paper does). Direct builds and compressed arrays take the whole.",
+     motions},
     {"samples_per_voxel", "Samples per voxel", "", ParameterKind::real, ParameterAffects::structure, 0.5, 3, 2,
      std::nullopt, "Surface fragments along each voxel's edge, for the build from fragments."},
     {"coverage", "Coverage", "", ParameterKind::real, ParameterAffects::structure, 0, 1, 0.5, 0.0,
@@ -34,6 +50,24 @@ constexpr std::array<Parameter, 10> parameters{{
     {"inset", "Inset", "voxels", ParameterKind::real, ParameterAffects::structure, 0, 1, 0.35, 0.0,
      "How far below the surface of a solid (a one-sided material) its fragments lie, in voxels of the scene's longest "
      "side."},
+    {"compression", "Compression", "", ParameterKind::boolean, ParameterAffects::structure, 0, 1, 0, 1,
+     "Keep a dictionary of the most frequent rows, and for each row only its index in it (Algorithm 2)."},
+    {"dictionary_rows", "Dictionary rows", "", ParameterKind::integer, ParameterAffects::structure, 1024, 4194304,
+     1048576, 1048576, "How many rows the dictionary keeps."},
+    {"dictionary_choice", "Dictionary choice", "", ParameterKind::choice, ParameterAffects::structure, 0, 1, 1, 0,
+     "Which rows the dictionary keeps: the most frequent ones, as in the paper, or those that stand for many others "
+     "when "
+     "down-sampled.",
+     dictionary_choices},
+    {"compression_steps", "Compression steps", "", ParameterKind::integer, ParameterAffects::structure, 1, 6, 4, 4,
+     "A row that is not in the dictionary is looked for down-sampled by 2, by 4 and so on: so many steps, counting the "
+     "first, which does not down-sample."},
+    {"leftover_rows", "Rows left over", "", ParameterKind::choice, ParameterAffects::structure, 0, 1, 1, 0,
+     "What a row becomes that no step has matched, and which of several matches it takes: a random one or the most "
+     "frequent, as in the paper, or the one that answers the fewest rays differently.",
+     leftover_rows},
+    {"index_bits", "Index bits", "", ParameterKind::choice, ParameterAffects::structure, 0, 1, 0, 0,
+     "Of each row's index; dictionaries of more than 1,048,576 rows need 32.", index_bits},
     {"start_offset", "Start offset along the row", "voxels", ParameterKind::real, ParameterAffects::picture, 0, 8, 1.5,
      std::nullopt, "Voxels left out at the surface, which would otherwise shadow itself."},
     {"normal_offset", "Start offset along the normal", "voxels", ParameterKind::real, ParameterAffects::picture, 0, 4,
@@ -44,11 +78,12 @@ constexpr std::array<Parameter, 10> parameters{{
      "One row for the whole ray, or one for each half (the paper: 4 % better, 45 % slower)."},
 }};
 
-constexpr std::array<std::string_view, 4> stages{"fragments", "rotated voxelizations", "rows", "shadow rays"};
+constexpr std::array<std::string_view, 5> stages{"fragments", "rotated voxelizations", "dictionary", "rows",
+                                                 "shadow rays"};
 
 const BuiltRows& built_rows(const Structure& structure) { return *std::any_cast<const BuiltRowsPointer&>(structure); }
 
-Structure build(const BuildRequest& request, Progress& progress) {
+BuildOptions build_options(const BuildRequest& request) {
     const auto value = [&](std::string_view name) { return parameter_value(parameters, request.parameters, name); };
     BuildOptions options;
     options.resolution = static_cast<int>(value("resolution"));
@@ -57,11 +92,51 @@ Structure build(const BuildRequest& request, Progress& progress) {
     options.coverage = value("coverage");
     options.inset = value("inset");
     options.threads = request.threads;
+    return options;
+}
+
+/// The whole scene at once.
+RowArray build_rows(const BuildRequest& request, const BuildOptions& options, Progress& progress) {
+    const auto value = [&](std::string_view name) { return parameter_value(parameters, request.parameters, name); };
+    RowArray array = value("build") == 0.0 ? build_from_fragments(*request.scene, options, progress)
+                                           : build_directly(*request.scene, options, progress);
+    if (value("compression") == 0.0) return array;
+    DictionaryOptions dictionary;
+    dictionary.rows = static_cast<std::uint32_t>(value("dictionary_rows"));
+    dictionary.choice = value("dictionary_choice") == 0.0 ? DictionaryChoice::frequent : DictionaryChoice::covering;
+    dictionary.steps = static_cast<int>(value("compression_steps"));
+    dictionary.leftovers = value("leftover_rows") == 0.0 ? Leftovers::random : Leftovers::nearest;
+    dictionary.packed = value("index_bits") == 0.0;
+    dictionary.threads = request.threads;
+    return compress(array, dictionary, progress);
+}
+
+Structure build(const BuildRequest& request, Progress& progress) {
+    const auto value = [&](std::string_view name) { return parameter_value(parameters, request.parameters, name); };
+    const BuildOptions options = build_options(request);
     auto built = std::make_shared<BuiltRows>();
-    built->array = value("build") == 0.0 ? build_from_fragments(*request.scene, options, progress)
-                                         : build_directly(*request.scene, options, progress);
+    if (value("motion") == 0.0 && value("build") == 0.0 && value("compression") == 0.0 &&
+        anything_moves(*request.scene)) {
+        std::shared_ptr<MovingRows> shared;
+        if (const auto* kept = std::any_cast<std::shared_ptr<MovingRows>>(&request.kept)) shared = *kept;
+        if (!shared) {
+            require_memory(options.resolution, options.angle_step_deg, available_memory_bytes() / 2);
+            shared = build_fixed(*request.scene, options, progress);
+        }
+        MomentArray now = build_moment(shared, *request.scene, options, progress);
+        built->array = std::move(now.array);
+        built->moment = std::move(now.moment);
+    } else {
+        require_memory(options.resolution, options.angle_step_deg, available_memory_bytes());
+        built->array = build_rows(request, options, progress);
+    }
     if (request.backend == Backend::vulkan) built->on_device = give_to_vulkan(built->array, progress);
     return BuiltRowsPointer(built);
+}
+
+std::any kept(const Structure& structure) {
+    const BuiltRows& built = built_rows(structure);
+    return built.moment.shared ? std::any(built.moment.shared) : std::any();
 }
 
 /// The structure's copy on the device, or one made for this call where it was built for the CPU.
@@ -79,16 +154,36 @@ Trace trace_structure(const Structure& structure, const TraceRequest& request) {
     return trace(built_rows(structure).array, request);
 }
 
+/// How well the dictionary serves the array, and what it costs.
+void add_dictionary(const RowArray& array, std::vector<Statistic>& values) {
+    const RowDictionary& dictionary = array.dictionary;
+    values.push_back({"distinct rows", static_cast<double>(dictionary.distinct_rows), ""});
+    values.push_back({"dictionary rows", static_cast<double>(dictionary.rows), ""});
+    for (std::size_t step = 0; step < dictionary.rows_mapped.size(); ++step)
+        values.push_back({step == 0 ? "rows in the dictionary"
+                                    : "rows mapped by step " + std::to_string(step) + ", down-sampled by " +
+                                          std::to_string(1u << step),
+                          static_cast<double>(dictionary.rows_mapped[step]), ""});
+    values.push_back({"rows left over", static_cast<double>(dictionary.rows_left_over), ""});
+    values.push_back({"rays answered differently", 100.0 * dictionary.differing_share, "%"});
+    for (const int bits : {20, 32})
+        values.push_back({"bytes with indices of " + std::to_string(bits) + " bits",
+                          static_cast<double>(compressed_bytes(array.grid, dictionary.rows, bits)), "B"});
+}
+
 Statistics statistics(const Structure& structure) {
     const RowArray& array = built_rows(structure).array;
     Statistics statistics;
     statistics.structure_bytes = array.words.bytes();
-    statistics.uncompressed_bytes = array.words.bytes();
+    statistics.uncompressed_bytes =
+        array.grid.rows() * static_cast<std::size_t>(array.grid.words_per_row) * sizeof(std::uint32_t);
     statistics.build_seconds = array.build_seconds;
+    statistics.compress_seconds = array.dictionary.seconds;
     statistics.values = {{"directions", static_cast<double>(array.grid.frames.size()), ""},
                          {"angle step", 180.0 / array.grid.angles, "deg"},
                          {"rows", static_cast<double>(array.grid.rows()), ""},
                          {"fragments", static_cast<double>(array.fragments), ""}};
+    if (array.dictionary.index_bits != 0) add_dictionary(array, statistics.values);
     return statistics;
 }
 
@@ -104,7 +199,9 @@ constexpr Technique row{
     build,
     render,
     trace_structure,
-    statistics};
+    statistics,
+    true,
+    kept};
 
 }  // namespace
 

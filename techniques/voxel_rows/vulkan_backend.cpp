@@ -11,9 +11,9 @@
 #include "shaders/voxel_rows_lighting_data.h"
 #include "techniques/compute/buffer.h"
 #include "techniques/compute/dispatch.h"
+#include "techniques/pixel_groups.h"
 #include "techniques/rays/light_records.h"
 #include "techniques/refinement.h"
-#include "techniques/voxel_rows/pixel_groups.h"
 #include "techniques/voxel_rows/query.h"
 
 namespace sightlines::voxel_rows {
@@ -39,7 +39,7 @@ struct VulkanRows {
     std::shared_ptr<void> words_owner;  ///< keeps the words alive as long as `rows`, which may be the same memory
     compute::Buffer rows, frames;
     bool as_texels = false;  ///< rows and frames are read by texel fetches instead of by address
-    int resolution = 0, words_per_row = 0;
+    RowShape shape{};
     // Pipelines are compiled when first asked for: compiling takes longer than a frame.
     mutable std::mutex pipelines_mutex;
     mutable std::map<PipelineKey, compute::Pipeline> pipelines;
@@ -50,13 +50,15 @@ namespace {
 const compute::Pipeline& pipeline_for(const VulkanRows& rows, const PipelineKey& key) {
     const std::lock_guard lock(rows.pipelines_mutex);
     if (const auto found = rows.pipelines.find(key); found != rows.pipelines.end()) return found->second;
-    const std::array<compute::SpecializationConstant, 6> constants{{
-        {0, static_cast<std::uint32_t>(rows.resolution)},
-        {1, static_cast<std::uint32_t>(rows.words_per_row)},
+    const std::array<compute::SpecializationConstant, 8> constants{{
+        {0, static_cast<std::uint32_t>(rows.shape.resolution)},
+        {1, static_cast<std::uint32_t>(rows.shape.words_per_row)},
         {2, static_cast<std::uint32_t>(key.subrays)},
         {3, static_cast<std::uint32_t>(key.clip)},
         {4, key.shade},
         {5, key.kind_of_all_lights},
+        {6, static_cast<std::uint32_t>(rows.shape.index_bits)},
+        {7, static_cast<std::uint32_t>(rows.shape.index_start)},
     }};
     const auto words = rows.as_texels ? spirv::voxel_rows_lighting_texels() : spirv::voxel_rows_lighting();
     compute::Pipeline pipeline =
@@ -127,14 +129,13 @@ TileAsker make_asker(const VulkanRows& rows, const RowArray& array, const Render
     asker.sums = host_buffer(rows, most_pixels * sizeof(PixelSums));
     asker.verdicts = host_buffer(rows, most_pixels * words_per_pixel * sizeof(std::uint32_t));
     asker.job = {query,
+                 0,
                  rows.frames.address,
                  rows.rows.address,
                  asker.lights.address,
                  asker.surfaces.address,
                  asker.sums.address,
                  asker.verdicts.address,
-                 0,
-                 0,
                  0,
                  words_per_pixel};
     return asker;
@@ -201,15 +202,14 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 std::shared_ptr<const VulkanRows> give_to_vulkan(const RowArray& array, Progress& progress) {
     const auto rows = std::make_shared<VulkanRows>();
     rows->device = compute::open_device();
-    rows->resolution = array.grid.resolution;
-    rows->words_per_row = array.grid.words_per_row;
+    rows->shape = make_shape(array);
     rows->words_owner = array.words.owner;
     rows->rows = compute::give_to_device(rows->device, std::as_bytes(array.words.words), progress);
     rows->frames = compute::make_buffer(rows->device, array.grid.frames.size() * sizeof(DirectionFrame),
                                         compute::MemoryPlace::device);
     compute::upload(rows->frames, std::as_bytes(std::span(array.grid.frames)), progress);
     // A software device reads an address word by word and ray by ray, but a texel of 16 bytes at once.
-    rows->as_texels = rows->device->info.kind == compute::DeviceKind::cpu && rows->words_per_row >= 4 &&
+    rows->as_texels = rows->device->info.kind == compute::DeviceKind::cpu && rows->shape.words_per_row >= 4 &&
                       compute::fits_as_texels(*rows->device, rows->rows.bytes);
     return rows;
 }
@@ -227,7 +227,7 @@ RenderResult render_on_vulkan(const VulkanRows& rows, const RowArray& array, con
     for (const RefinementPass& pass : passes) {
         for (const PixelRect& tile : tiles) {
             const PixelGroups pixels = group_pixels(surfaces, tile, pass.stride, pass.skip_stride);
-            if (pixels.groups() > 0) {
+            if (pixels.pixel.size() / pixel_group_size > 0) {
                 ask_tile(asker, pixels, progress);
                 resolve(asker, pixels, surfaces, result);
             }
@@ -251,7 +251,7 @@ QueryCount count_blocked_on_vulkan(const VulkanRows& rows, const RowArray& array
     QueryCount total;
     for (const PixelRect& tile : tiles_of(request.surfaces->size, rows.device->info.kind)) {
         const PixelGroups pixels = group_pixels(*request.surfaces, tile, 1, 0);
-        if (pixels.groups() == 0) continue;
+        if (pixels.pixel.size() / pixel_group_size == 0) continue;
         ask_tile(asker, pixels, progress);
         for (const PixelSums& sums : asker.tile_sums().first(pixels.pixel.size())) {
             total.rays += sums.asked;

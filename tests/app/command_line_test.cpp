@@ -60,6 +60,7 @@ const Case cases[] = {
     {"WordSize", {"render", "--size", "large", "--out", "a.png"}, 3, "--size: 'large'.*640x360", "^$"},
     {"NegativeLights", {"render", "--lights", "-1", "--out", "a.png"}, 3, "^sightlines: --lights: '-1'", "^$"},
     {"TooManyLights", {"render", "--lights", "65537", "--out", "a.png"}, 3, "give 0 to 65536", "^$"},
+    {"BadVirtualLights", {"render", "--virtual-lights", "-1", "--out", "a.png"}, 3, "--virtual-lights: '-1'", "^$"},
     {"HalfALight", {"render", "--lights", "1.5", "--out", "a.png"}, 3, "--lights: '1.5'", "^$"},
     {"BadPlacement", {"render", "--placement", "spere", "--out", "a.png"}, 3, "did you mean sphere", "^$"},
     {"BadTime", {"render", "--time", "nan", "--out", "a.png"}, 3, "--time: 'nan'", "^$"},

@@ -95,6 +95,36 @@ TEST(Results, DoNotDependOnTheOrderOfAsking) {
     EXPECT_EQ(one.picture(session, progress)->value.radiance, two.picture(session, progress)->value.radiance);
 }
 
+TEST(Results, ChooseTheCpuForTechniquesThatRunNowhereElse) {
+    const Results results(0, Backend::vulkan);
+    Session session = small_session();
+    session.backend = BackendChoice::automatic;
+    EXPECT_EQ(results.backend(session), Backend::vulkan);
+    session.technique = "voxel_marching";
+    EXPECT_EQ(results.backend(session), Backend::cpu);
+    session.backend = BackendChoice::vulkan;
+    EXPECT_EQ(results.backend(session), Backend::vulkan) << "an explicit choice is passed on, and refused there";
+}
+
+TEST(Results, AddVirtualLightsAfterTheOthersWhereTheSessionAsks) {
+    Results results(0, Backend::cpu);
+    Progress progress;
+    Session session = small_session();
+    const auto direct = results.lights(session, progress);
+    session.lights.virtual_lights = 50;
+    EXPECT_NE(lights_part(session), lights_part(small_session()));
+    EXPECT_EQ(structure_part(session), structure_part(small_session()));
+    const auto all = results.lights(session, progress);
+    ASSERT_GT(all->value.size(), direct->value.size() + 40u);
+    EXPECT_LE(all->value.size(), direct->value.size() + 50u);
+    for (std::size_t i = 0; i < all->value.size(); ++i) {
+        EXPECT_EQ(all->value[i].kind == LightKind::surface, i >= direct->value.size());
+        EXPECT_TRUE(i >= direct->value.size() || all->value[i] == direct->value[i]);
+    }
+    session.lights.virtual_lights = 65536;
+    EXPECT_THROW(results.lights(session, progress), InputError);
+}
+
 TEST(Results, RefuseMoreRaysThanCanBeCompared) {
     Results results(0, Backend::cpu);
     Progress progress;

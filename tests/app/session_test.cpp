@@ -87,6 +87,7 @@ Session random_session(std::uint32_t number) {
                       {}};
     for (int moved = draw.whole(0, 3); moved > 0; --moved)
         session.lights.moved.push_back({static_cast<std::uint32_t>(draw.whole(0, 65535)), draw.point()});
+    session.lights.virtual_lights = static_cast<std::uint32_t>(draw.whole(0, 65536));
     for (const Technique& technique : techniques()) {
         ParameterValues values = random_parameters(technique, draw);
         if (!values.empty()) session.parameters[std::string(technique.name)] = std::move(values);
@@ -186,6 +187,7 @@ TEST(Session, RefusesWithTheJsonPointerAndAWayToMendIt) {
         {R"({"lights": {"cuont": 3}})", "/lights/cuont: is not known (did you mean count?)"},
         {R"({"lights": {"count": 65537}})", "/lights/count: 65537 is outside its range (give 0 to 65536)"},
         {R"({"lights": {"count": -1}})", "/lights/count: -1 is outside"},
+        {R"({"lights": {"virtual_lights": 65537}})", "/lights/virtual_lights: 65537 is outside"},
         {R"({"lights": {"count": 1.5}})", "/lights/count: 1.5 is not a whole number"},
         {R"({"lights": [1]})", "/lights: is not an object"},
         {R"({"lights": {"placement": "spere"}})", "/lights/placement: has no choice spere (did you mean sphere?)"},
@@ -198,7 +200,7 @@ TEST(Session, RefusesWithTheJsonPointerAndAWayToMendIt) {
         {R"({"parameters": {"voxel_rows": {"resolution": 1e9}}})", "/parameters/voxel_rows/resolution: 1000000000"},
         {R"({"parameters": {"voxel_rows": {"resolution": [64]}}})", "is not a number"},
         {R"({"parameters": {"voxel_rows": 3}})", "/parameters/voxel_rows: is not an object"},
-        {R"({"parameters": {"shadow_maps": {}}})", "/parameters/shadow_maps: technique shadow_maps is not known"},
+        {R"({"parameters": {"depth_maps": {}}})", "/parameters/depth_maps: technique depth_maps is not known"},
         {R"({"selection": {"pixel": [1]}})", "/selection/pixel: is not a list of 2 numbers"},
         {R"({"selection": {"pixel": [1, -1]}})", "/selection/pixel/1: -1 is outside"},
         {R"({"free_camera": {"position_m": [0, 0, 0], "target_m": [0, 0, 0]}})", "/free_camera: has no picture"},
@@ -288,11 +290,12 @@ TEST(SessionPart, OfTheStructureHoldsOnlyParametersThatChangeIt) {
         for (const Parameter& row : technique.parameters) {
             Session session;
             session.technique = std::string(technique.name);
+            const Session at_defaults = session;
             const double other = row.default_value == row.lowest ? row.highest : row.lowest;
             session.parameters[session.technique][std::string(row.name)] = other;
-            const bool changes = !(structure_part(session) == structure_part(Session{}));
+            const bool changes = !(structure_part(session) == structure_part(at_defaults));
             EXPECT_EQ(changes, row.affects == ParameterAffects::structure) << row.name;
-            EXPECT_NE(picture_part(session), picture_part(Session{})) << row.name;
+            EXPECT_NE(picture_part(session), picture_part(at_defaults)) << row.name;
         }
     }
 }

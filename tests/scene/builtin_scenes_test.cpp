@@ -83,11 +83,16 @@ TEST_P(BuiltinScene, HasUnitNormalsAndNoTriangleWithoutArea) {
 }
 
 TEST_P(BuiltinScene, IsWoundAsItsNormalsPoint) {
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const uvec3 vertices = scene.triangles[i];
-        const dvec3 normal = glm::normalize(face(scene, i));
-        const vec3 sum = scene.normals[vertices.x] + scene.normals[vertices.y] + scene.normals[vertices.z];
-        ASSERT_GT(glm::dot(normal, dvec3(sum)), 0.0) << "triangle " << i;
+    for (const Part& part : scene.parts) {
+        std::uint32_t wrong = 0;
+        for (std::uint32_t i = part.first_triangle; i < part.first_triangle + part.triangle_count; ++i) {
+            const uvec3 vertices = scene.triangles[i];
+            const dvec3 normal = glm::normalize(face(scene, i));
+            const vec3 sum = scene.normals[vertices.x] + scene.normals[vertices.y] + scene.normals[vertices.z];
+            if (glm::dot(normal, dvec3(sum)) <= 0.0) ++wrong;
+        }
+        // Where a body bends, a few triangles in the fold turn over.
+        EXPECT_LE(wrong, part.deforms ? part.triangle_count / 500 : 0) << part.name;
     }
 }
 
@@ -109,6 +114,14 @@ TEST_P(BuiltinScene, HasTightBoundsWithItsLightsAndCamerasInReach) {
         for (int i = 0; i < 3; ++i) bounds.add(scene.positions[vertices[i]]);
     }
     EXPECT_EQ(scene.bounds, bounds);
+    const bool moves = std::ranges::any_of(scene.parts, [](const Part& part) { return part.moves || part.deforms; });
+    EXPECT_TRUE(moves || scene.motion_bounds == bounds);
+    for (const double time_s : {0.0, 0.31 * model.duration_s, 0.77 * model.duration_s}) {
+        if (!moves && time_s > 0.0) continue;
+        const Scene at_time = model.at(time_s);
+        EXPECT_TRUE(glm::all(glm::greaterThanEqual(at_time.bounds.lowest, scene.motion_bounds.lowest))) << time_s;
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(at_time.bounds.highest, scene.motion_bounds.highest))) << time_s;
+    }
     EXPECT_FALSE(scene.light_volume.empty());
     EXPECT_LT(scene.light_volume.diagonal(), bounds.diagonal());
     for (const Camera& camera : scene.cameras) {
@@ -129,15 +142,16 @@ TEST_P(BuiltinScene, IsCoveredByItsPartsInOrder) {
 }
 
 TEST_P(BuiltinScene, RepeatsEachMeshExactlyInItsInstances) {
+    const Scene later = model.at(0.4 * model.duration_s);
     std::map<std::uint32_t, const Part*> first_of_mesh;
-    for (const Part& part : scene.parts) {
+    for (const Part& part : later.parts) {
         const Part& first = *first_of_mesh.try_emplace(part.mesh, &part).first->second;
         ASSERT_EQ(part.triangle_count, first.triangle_count) << part.name;
         const mat4 part_from_world = glm::inverse(part.world_from_part),
                    first_from_world = glm::inverse(first.world_from_part);
         for (std::uint32_t i = 0; i < part.triangle_count; i += 7) {
-            const vec3 here = scene.positions[scene.triangles[part.first_triangle + i].x];
-            const vec3 there = scene.positions[scene.triangles[first.first_triangle + i].x];
+            const vec3 here = later.positions[later.triangles[part.first_triangle + i].x];
+            const vec3 there = later.positions[later.triangles[first.first_triangle + i].x];
             ASSERT_LT(glm::distance(vec3(part_from_world * vec4(here, 1)), vec3(first_from_world * vec4(there, 1))),
                       1e-4f)
                 << part.name << ", triangle " << i;
@@ -145,42 +159,82 @@ TEST_P(BuiltinScene, RepeatsEachMeshExactlyInItsInstances) {
     }
 }
 
-TEST_P(BuiltinScene, IsTheSameEachTimeAndOnlyItsLightsMove) {
-    const Scene again = model.at(0.0), later = model.at(5.0);
+TEST_P(BuiltinScene, IsTheSameEachTimeAndMovesOnlyThePartsThatSaySo) {
+    const Scene again = model.at(0.0), later = model.at(0.2 * model.duration_s);
     EXPECT_EQ(scene.positions, again.positions);
     EXPECT_EQ(scene.lights, again.lights);
-    EXPECT_EQ(scene.positions, later.positions);
     EXPECT_EQ(scene.triangles, later.triangles);
-    EXPECT_EQ(later.time_s, 5.0);
-    for (const Part& part : scene.parts) EXPECT_FALSE(part.moves || part.deforms);
-    if (model.duration_s == 0.0) {
-        EXPECT_EQ(scene.lights, later.lights);
-        return;
+    EXPECT_EQ(later.time_s, 0.2 * model.duration_s);
+    ASSERT_EQ(scene.parts.size(), later.parts.size());
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+        const Part& part = scene.parts[i];
+        EXPECT_EQ(part.moves, later.parts[i].moves);
+        EXPECT_EQ(part.deforms, later.parts[i].deforms);
+        EXPECT_FALSE(part.moves && part.deforms);
+        EXPECT_EQ(part.world_from_part == later.parts[i].world_from_part, !part.moves) << part.name;
+        bool same = true;
+        for (std::uint32_t k = part.first_triangle; k < part.first_triangle + part.triangle_count; ++k)
+            same = same && scene.positions[scene.triangles[k].x] == later.positions[scene.triangles[k].x];
+        EXPECT_EQ(same, !part.moves && !part.deforms) << part.name;
     }
-    EXPECT_GT(glm::distance(scene.lights[0].direction, later.lights[0].direction), 0.05f);
-    const Scene looped = model.at(5.0 + model.duration_s);
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        EXPECT_LT(glm::distance(later.lights[i].direction, looped.lights[i].direction), 1e-5f);
-        EXPECT_NEAR(glm::length(later.lights[i].direction), 1.0f, 1e-5f);
-        EXPECT_TRUE(i == 0 || scene.lights[i] == later.lights[i]) << "light " << i;
-    }
-    EXPECT_LT(later.lights[0].direction.y, -0.3f);  // the sun is up
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinScene, testing::Values("cornell", "atrium", "trees"),
+TEST_P(BuiltinScene, LoopsAfterItsDuration) {
+    if (model.duration_s == 0.0) {
+        EXPECT_EQ(model.at(5.0).lights, scene.lights);
+        return;
+    }
+    const double time_s = 0.3 * model.duration_s;
+    const Scene once = model.at(time_s), twice = model.at(time_s + model.duration_s);
+    ASSERT_EQ(once.positions.size(), twice.positions.size());
+    for (std::size_t i = 0; i < once.positions.size(); ++i)
+        ASSERT_LT(glm::distance(once.positions[i], twice.positions[i]), 1e-3f) << "vertex " << i;
+    ASSERT_EQ(once.lights.size(), twice.lights.size());
+    bool changes = scene.positions != once.positions;
+    for (std::size_t i = 0; i < once.lights.size(); ++i) {
+        EXPECT_NEAR(glm::length(once.lights[i].direction), 1.0f, 1e-5f);
+        EXPECT_LT(glm::distance(once.lights[i].direction, twice.lights[i].direction), 1e-5f);
+        EXPECT_LT(glm::distance(once.lights[i].position, twice.lights[i].position), 1e-3f);
+        EXPECT_LT(glm::distance(once.lights[i].intensity, twice.lights[i].intensity), 1e-2f);
+        changes = changes || once.lights[i] != scene.lights[i];
+    }
+    EXPECT_TRUE(changes);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinScene,
+                         testing::Values("cornell", "atrium", "trees", "garden", "cathedral", "planes", "bear",
+                                         "bear_full", "park", "tv"),
+                         [](const auto& test) { return std::string(test.param); });
+
+/// Outdoors by day: the first light is the sun, which moves and stays up; nothing else does.
+struct SunnyScene : testing::TestWithParam<const char*> {};
+
+TEST_P(SunnyScene, HasASunThatMovesAndStaysUp) {
+    const SceneModel& model = model_called(GetParam());
+    const Scene scene = model.at(0.0), later = model.at(5.0);
+    EXPECT_GT(glm::distance(scene.lights[0].direction, later.lights[0].direction), 0.05f);
+    EXPECT_LT(later.lights[0].direction.y, -0.3f);
+    for (std::size_t i = 1; i < scene.lights.size(); ++i) EXPECT_EQ(scene.lights[i], later.lights[i]) << "light " << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SunnyScene, testing::Values("atrium", "trees", "garden"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(BuiltinScenes, HaveTheTriangleCountsThatTheyAreKnownBy) {
     EXPECT_EQ(model_called("cornell").at(0.0).triangles.size(), 38u);
-    EXPECT_NEAR(static_cast<double>(model_called("atrium").at(0.0).triangles.size()), 260000.0, 0.03 * 260000.0);
-    EXPECT_NEAR(static_cast<double>(model_called("trees").at(0.0).triangles.size()), 626000.0, 0.03 * 626000.0);
+    const std::vector<std::pair<const char*, double>> known = {
+        {"atrium", 260000.0}, {"trees", 626000.0}, {"garden", 416000.0},     {"cathedral", 456000.0},
+        {"planes", 982000.0}, {"bear", 152000.0},  {"bear_full", 1486000.0}, {"park", 499000.0},
+    };
+    for (const auto& [name, count] : known)
+        EXPECT_NEAR(static_cast<double>(model_called(name).at(0.0).triangles.size()), count, 0.03 * count) << name;
 }
 
 TEST(BuiltinScenes, AreListedInOrder) {
-    ASSERT_EQ(builtin_scenes().size(), 3u);
-    EXPECT_EQ(builtin_scenes()[0].name, "cornell");
-    EXPECT_EQ(builtin_scenes()[1].name, "atrium");
-    EXPECT_EQ(builtin_scenes()[2].name, "trees");
+    std::vector<std::string> names;
+    for (const SceneModel& model : builtin_scenes()) names.push_back(model.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"cornell", "atrium", "trees", "garden", "cathedral", "planes", "bear",
+                                               "bear_full", "park", "tv"}));
 }
 
 TEST(BuiltinScenes, AreFoundByName) {
@@ -200,7 +254,8 @@ TEST(BuiltinScenes, OfferTheNearestNameForAnUnknownOne) {
         find_scene("something/else.obj", progress);
         FAIL() << "accepted";
     } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("cornell, atrium and trees"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("built in are cornell, atrium, trees"), std::string::npos)
+            << error.what();
     }
 }
 

@@ -208,6 +208,40 @@ TEST(GltfAnimation, MomentsAreTheSameFromManyThreads) {
     for (const Scene& scene : scenes) EXPECT_EQ(scene.positions, expected.positions);
 }
 
+TEST(GltfAnimation, KnowsFromTheStartWhatItWillReach) {
+    Document document = triangle_document();
+    document.root["nodes"] = json::array({{{"mesh", 0}}, {{"mesh", 0}, {"translation", {0, 50, 0}}}});
+    document.root["scenes"][0]["nodes"] = {0, 1};
+    const SceneModel still = load(document);
+    EXPECT_EQ(still.at(0.0).motion_bounds, still.at(0.0).bounds);
+    // There and back: at its farthest between two keyframes only.
+    animate(document, 0, "translation", document.add_floats({0, 1, 2}, "SCALAR"),
+            document.add_floats({0, 0, 0, 10, 0, 0, 0, 0, 0}), "LINEAR");
+    const SceneModel model = load(document);
+    const Box3 reached = model.at(0.0).motion_bounds;
+    EXPECT_EQ(model.at(0.77).motion_bounds, reached);
+    const float farthest = model.at(1.0).bounds.highest.x;
+    EXPECT_NEAR(reached.highest.x, farthest, 0.03f * farthest);
+    EXPECT_GE(reached.highest.x, farthest);
+    EXPECT_EQ(reached.highest.y, still.at(0.0).bounds.highest.y) << "what stands still gets no margin";
+}
+
+TEST(GltfAnimation, SharedScenesStayInWhatTheySayTheyReach) {
+    const std::filesystem::path folder = std::filesystem::path(SIGHTLINES_SHARED_FOLDER) / "scenes";
+    for (const char* name : {"fox.glb", "cesium_man.glb", "rigid_anim_bunny.glb"}) {
+        if (!std::filesystem::exists(folder / name)) GTEST_SKIP() << folder / name << " is absent";
+        Progress progress;
+        const SceneModel model = load_gltf(folder / name, progress);
+        const Box3 reached = model.at(0.0).motion_bounds;
+        for (int i = 0; i < 17; ++i) {
+            const Box3 now = model.at(model.duration_s * i / 17.0).bounds;
+            EXPECT_TRUE(glm::all(glm::lessThanEqual(reached.lowest, now.lowest))) << name << " " << i;
+            EXPECT_TRUE(glm::all(glm::greaterThanEqual(reached.highest, now.highest))) << name << " " << i;
+        }
+        EXPECT_LT(reached.diagonal(), 6.0f * model.at(0.0).bounds.diagonal()) << name;
+    }
+}
+
 TEST(GltfAnimation, SharedScenesDeformOrMoveRigidly) {
     const std::filesystem::path folder = std::filesystem::path(SIGHTLINES_SHARED_FOLDER) / "scenes";
     for (const char* name : {"fox.glb", "cesium_man.glb", "rigid_anim_bunny.glb"}) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "techniques/voxel_rows/dictionary.h"
 #include "techniques/voxel_rows/query.h"
 #include "techniques/voxel_rows/voxel_rows.h"
 #include "tests/voxel_rows/scenes.h"
@@ -74,6 +75,29 @@ TEST(VoxelRowsTrace, RecordsTheRowsBitsAndWhatIsLeftOfThem) {
         EXPECT_EQ(clipped[place] == '1', served.bits[place] && u >= served.first && u <= served.last);
     }
     EXPECT_EQ(clipped.find('1') != std::string::npos, recorded.blocked);
+}
+
+TEST(VoxelRowsTrace, RecordsTheLookUpInTheDictionaryWhereThereIsOne) {
+    const Fixture fixture;
+    Progress progress;
+    const RowArray made = compress(fixture.array, {.rows = 4000}, progress);
+    for (std::uint32_t k = 0; k < 200; k += 2) {
+        const TraceRequest request = fixture.request(k);
+        const Trace recorded = trace(made, request), uncompressed = trace(fixture.array, request);
+        ASSERT_EQ(recorded.steps.size(), uncompressed.steps.size() + 1);
+        const auto row = value_of<std::int64_t>(recorded, "Algorithm 3, line 3", "row");
+        const auto index = value_of<std::int64_t>(recorded, "Algorithm 3, line 3", "index");
+        EXPECT_EQ(index, dictionary_entry(made, static_cast<std::uint32_t>(row)).index);
+        const ServedRay served = serve(made, request);
+        EXPECT_EQ(served.blocked, recorded.blocked);
+        std::string bits = value_of<std::string>(recorded, "Algorithm 3, lines 5 to 7", "row");
+        std::erase(bits, ' ');
+        const auto words = row_words(made, static_cast<std::uint32_t>(row));
+        for (std::size_t u = 0; u < 100; ++u) {
+            ASSERT_EQ(bits[u] == '1', (words[u / 32] >> (u % 32) & 1u) != 0);
+            ASSERT_EQ(bits[u] == '1', served.bits[u]);
+        }
+    }
 }
 
 TEST(VoxelRowsTrace, NamesTheKernelsOwnLines) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "techniques/compute/device.h"
+#include "techniques/voxel_rows/dictionary.h"
 #include "techniques/voxel_rows/query.h"
 #include "tests/voxel_rows/scenes.h"
 
@@ -69,6 +70,12 @@ struct Case {
         request.lights = lights;
         request.keep_verdicts = true;
     }
+    /// The same rays asked of the array with a dictionary.
+    void compress_array(std::uint32_t dictionary_rows, bool packed) {
+        Progress progress;
+        array = compress(array, {.rows = dictionary_rows, .packed = packed}, progress);
+        on_device = give_to_vulkan(array, progress);
+    }
     Case(const Case&) = delete;
     Case& operator=(const Case&) = delete;
 
@@ -124,6 +131,17 @@ TEST(VulkanBackend, AgreesWithTheCpuOnTwoRowsPerRay) {
     Case asked(128, 40, false);
     asked.request.parameters["subrays"] = 2.0;
     expect_alike(asked);
+}
+
+TEST(VulkanBackend, AgreesWithTheCpuOnCompressedRows) {
+    NEEDS_VULKAN;
+    for (const bool packed : {true, false}) {
+        for (const int resolution : {30, 40, 128, 150}) {
+            Case asked(resolution, 40, false);
+            asked.compress_array(3000, packed);
+            expect_alike(asked);
+        }
+    }
 }
 
 TEST(VulkanBackend, GivesTheSamePixelsInAnyOrderOfTilesAndWhenWatched) {

@@ -1,16 +1,15 @@
 // The picture's pixels in the order in which they are asked: blocks of 4 x 4, so that the rays of one vector are
-// neighbours and mostly share a direction, a row and a cache line.
+// neighbours and mostly go the same way.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "techniques/scene/surface_buffer.h"
 
-namespace sightlines::voxel_rows {
+namespace sightlines {
 
-constexpr std::size_t group_size = 16;
+constexpr std::size_t pixel_group_size = 16;
 
 /// Structure of arrays, padded to whole groups; a padding pixel has a zero normal, so that none of its rays is asked.
 struct PixelGroups {
@@ -18,8 +17,6 @@ struct PixelGroups {
     std::vector<float> position[3];        ///< [G * 16], m
     std::vector<float> normal[3];          ///< [G * 16], geometric: decides which rays are asked
     std::vector<float> shading_normal[3];  ///< [G * 16]
-
-    std::size_t groups() const { return pixel.size() / group_size; }
 };
 
 /// The pixels of `rect` that show a surface, in blocks of 4 x 4 of the pixels taken.
@@ -27,4 +24,4 @@ struct PixelGroups {
 /// of `skip_stride`: the passes of a refinement.
 PixelGroups group_pixels(const SurfaceBuffer& surfaces, PixelRect rect, int stride, int skip_stride);
 
-}  // namespace sightlines::voxel_rows
+}  // namespace sightlines

@@ -1,8 +1,8 @@
-#include "techniques/voxel_rows/pixel_groups.h"
+#include "techniques/pixel_groups.h"
 
 #include <algorithm>
 
-namespace sightlines::voxel_rows {
+namespace sightlines {
 namespace {
 
 void append(PixelGroups& groups, const SurfaceBuffer& surfaces, std::uint32_t pixel) {
@@ -15,8 +15,8 @@ void append(PixelGroups& groups, const SurfaceBuffer& surfaces, std::uint32_t pi
 }
 
 void pad(PixelGroups& groups) {
-    while (groups.pixel.size() % group_size != 0) {
-        // The last pixel's position keeps the padding in its neighbours' rows.
+    while (groups.pixel.size() % pixel_group_size != 0) {
+        // The last pixel's position keeps the padding where its neighbours are.
         groups.pixel.push_back(no_triangle);
         for (int axis = 0; axis < 3; ++axis) {
             groups.position[axis].push_back(groups.position[axis].back());
@@ -47,4 +47,4 @@ PixelGroups group_pixels(const SurfaceBuffer& surfaces, PixelRect rect, int stri
     return groups;
 }
 
-}  // namespace sightlines::voxel_rows
+}  // namespace sightlines

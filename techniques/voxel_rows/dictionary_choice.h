@@ -1,0 +1,26 @@
+// Wang 2017, Algorithm 2, line 2: which rows make the dictionary.
+#pragma once
+
+#include "techniques/voxel_rows/dictionary.h"
+#include "techniques/voxel_rows/row_histogram.h"
+
+namespace sightlines::voxel_rows {
+
+/// A row of the dictionary to be.
+template <int length>
+struct ChosenRow {
+    RowBits<length> row;
+    std::uint64_t hash;
+    std::uint32_t count, id;  ///< as in the histogram
+};
+
+/// At most options.rows rows by options.choice, most frequent first; of those equally frequent the lowest hash first.
+template <int length>
+std::vector<ChosenRow<length>> choose_rows(const RowHistogram<length>& histogram, const DictionaryOptions& options,
+                                           Progress& progress);
+
+/// What a row is worth for a dictionary that is to cover: how often the row occurs, and, if it is the most frequent one
+/// of all that are alike down-sampled by 2 (or 4), how often these occur together, times as many.
+constexpr std::uint64_t worth_of_group[3]{1, 4, 8};
+
+}  // namespace sightlines::voxel_rows

@@ -1,0 +1,60 @@
+#include "techniques/voxel_rows/memory_need.h"
+
+#include <array>
+#include <sstream>
+#include <string>
+
+#include "techniques/base/error.h"
+#include "techniques/compute/device.h"
+#include "techniques/voxel_rows/row_array.h"
+
+namespace sightlines::voxel_rows {
+namespace {
+
+std::string array_text(int resolution, double angle_step_deg) {
+    std::ostringstream text;
+    text << resolution << " voxels at " << angle_step_deg << " deg";
+    return text.str();
+}
+
+/// "256 voxels at 3 deg (7.64 GB)"
+std::string sized_text(int resolution, double angle_step_deg) {
+    return array_text(resolution, angle_step_deg) + " (" +
+           compute::bytes_text(array_bytes(resolution, angle_step_deg)) + ")";
+}
+
+/// The nearest choices that fit, one of a coarser step and one of a lower resolution; empty where nothing does.
+std::string what_fits(int resolution, double angle_step_deg, std::uint64_t available_bytes) {
+    std::string fits;
+    for (const double step_deg : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0}) {
+        if (step_deg <= angle_step_deg || array_bytes(resolution, step_deg) > available_bytes) continue;
+        fits = sized_text(resolution, step_deg);
+        break;
+    }
+    for (const int side : {192, 128, 96, 64, 48, 32}) {
+        if (side >= resolution || array_bytes(side, angle_step_deg) > available_bytes) continue;
+        fits += (fits.empty() ? "" : " or ") + sized_text(side, angle_step_deg);
+        break;
+    }
+    return fits;
+}
+
+}  // namespace
+
+std::uint64_t array_bytes(int resolution, double angle_step_deg) {
+    const RowGrid grid = make_grid(Box3{vec3(0.0f), vec3(1.0f)}, resolution, angle_step_deg);
+    return grid.rows() * static_cast<std::uint64_t>(grid.words_per_row) * sizeof(std::uint32_t);
+}
+
+void require_memory(int resolution, double angle_step_deg, std::uint64_t available_bytes) {
+    const std::uint64_t needed = array_bytes(resolution, angle_step_deg);
+    if (needed <= available_bytes) return;
+    const std::string fits = what_fits(resolution, angle_step_deg, available_bytes);
+    throw EnvironmentError("memory",
+                           "an array of " + array_text(resolution, angle_step_deg) + " takes " +
+                               compute::bytes_text(needed) + ", and " + compute::bytes_text(available_bytes) +
+                               " are free",
+                           fits.empty() ? "close other programs" : "what would fit: " + fits);
+}
+
+}  // namespace sightlines::voxel_rows

@@ -1,0 +1,77 @@
+// One row of bits as a value: what the dictionary (Wang 2017, Algorithm 2) does with rows one by one.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+namespace sightlines::voxel_rows {
+
+/// 32 * length bits, bit u of the row in bit u % 32 of word u / 32.
+template <int length>
+struct RowBits {
+    std::array<std::uint32_t, static_cast<std::size_t>(length)> words{};
+
+    bool operator==(const RowBits&) const = default;
+    auto operator<=>(const RowBits&) const = default;
+};
+
+template <int length>
+RowBits<length> load_row(const std::uint32_t* from) {
+    RowBits<length> row;
+    std::memcpy(row.words.data(), from, sizeof row);
+    return row;
+}
+
+template <int length>
+bool is_blank(const RowBits<length>& row) {
+    std::uint32_t any = 0;
+    for (const std::uint32_t word : row.words) any |= word;
+    return any == 0;
+}
+
+/// A hash whose upper and lower bits are both good.
+template <int length>
+std::uint64_t hash_row(const RowBits<length>& row) {
+    std::uint64_t hash = 0;
+    for (std::size_t k = 0; k < length; k += 2) {
+        std::uint64_t pair = row.words[k];
+        if (k + 1 < length) pair |= std::uint64_t{row.words[k + 1]} << 32u;
+        hash = (hash ^ pair) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32u;
+    }
+    hash *= 0xd1342543de82ef95u;
+    return hash ^ hash >> 32u;
+}
+
+/// Down-sampled by 2^step, at most 32: the lowest bit of each group of 2^step is set iff any of the group is; the
+/// others are clear.
+template <int length>
+RowBits<length> simplify(RowBits<length> row, int step) {
+    constexpr std::array<std::uint32_t, 6> lowest_of_groups{0xffffffffu, 0x55555555u, 0x11111111u,
+                                                            0x01010101u, 0x00010001u, 0x00000001u};
+    for (std::uint32_t& word : row.words) {
+        for (int k = 0; k < step; ++k) word |= word >> (1u << static_cast<unsigned>(k));
+        word &= lowest_of_groups[static_cast<std::size_t>(step)];
+    }
+    return row;
+}
+
+/// Calls body(integral constant) with the words of a row as a constant: 1, 2, 4 or 8.
+template <class Body>
+decltype(auto) with_row_length(int words_per_row, const Body& body) {
+    switch (words_per_row) {
+        case 1:
+            return body(std::integral_constant<int, 1>());
+        case 2:
+            return body(std::integral_constant<int, 2>());
+        case 4:
+            return body(std::integral_constant<int, 4>());
+        default:
+            return body(std::integral_constant<int, 8>());
+    }
+}
+
+}  // namespace sightlines::voxel_rows

@@ -1,0 +1,117 @@
+// How differently two rows answer the rays that matter: those that leave a surface of the first.
+#pragma once
+
+#include "techniques/voxel_rows/row_bits.h"
+
+namespace sightlines::voxel_rows {
+
+/// A row as 64-bit words, bit u in bit u % 64 of word u / 64.
+template <int length>
+using RowPlanes = std::array<std::uint64_t, (static_cast<std::size_t>(length) + 1) / 2>;
+
+template <int length>
+RowPlanes<length> planes_of(const RowBits<length>& row) {
+    RowPlanes<length> planes{};
+    for (std::size_t k = 0; k < length; ++k) planes[k / 2] |= std::uint64_t{row.words[k]} << (32 * (k % 2));
+    return planes;
+}
+
+inline std::uint32_t reversed(std::uint32_t word) {
+    word = (word & 0x55555555u) << 1u | (word >> 1u & 0x55555555u);
+    word = (word & 0x33333333u) << 2u | (word >> 2u & 0x33333333u);
+    word = (word & 0x0f0f0f0fu) << 4u | (word >> 4u & 0x0f0f0f0fu);
+    return __builtin_bswap32(word);
+}
+
+/// The row as it is met from its other end: bit u becomes bit 32 * length - 1 - u.
+template <int length>
+RowBits<length> reversed(const RowBits<length>& row) {
+    RowBits<length> back;
+    for (std::size_t k = 0; k < length; ++k) back.words[length - 1 - k] = reversed(row.words[k]);
+    return back;
+}
+
+/// The first set bit from `start` on; `end` where there is none.
+template <std::size_t count>
+std::uint32_t next_set(const std::array<std::uint64_t, count>& planes, std::uint32_t start, std::uint32_t end) {
+    std::uint64_t mask = ~std::uint64_t{0} << (start % 64);
+    for (std::size_t k = start / 64; k < count; ++k, mask = ~std::uint64_t{0})
+        if ((planes[k] & mask) != 0) return static_cast<std::uint32_t>(64 * k + std::countr_zero(planes[k] & mask));
+    return end;
+}
+
+/// Rays that start at one voxel and end in any of the voxels from there to the end of the row.
+struct Probe {
+    std::uint32_t start, blocker;  ///< blocker: the first set voxel on the way; the row's end where there is none
+};
+
+/// The rays that leave a row's surfaces one way. They start one and two voxels beyond the surface's own, as those that
+/// are asked do (their offsets are 1.5 voxels and a little), where these are clear.
+template <int length>
+struct Probes {
+    std::array<Probe, 64 * static_cast<std::size_t>(length) / 3 + 1> probes;
+    std::size_t count = 0;
+};
+
+/// `end`: of the row on the rays' way: the resolution on the way up, all 32 * length bits for a reversed row.
+template <int length>
+Probes<length> probes_of(const RowBits<length>& row, std::uint32_t end) {
+    const RowPlanes<length> planes = planes_of(row);
+    Probes<length> made;
+    std::uint64_t before = 0;
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+        const std::uint64_t one_back = planes[k] << 1u | before >> 63u, two_back = planes[k] << 2u | before >> 62u;
+        for (std::uint64_t starts = (one_back | two_back) & ~planes[k]; starts != 0; starts &= starts - 1) {
+            const auto start = static_cast<std::uint32_t>(64 * k + std::countr_zero(starts));
+            if (start < end) made.probes[made.count++] = {start, next_set(planes, start, end)};
+        }
+        before = planes[k];
+    }
+    return made;
+}
+
+/// Both ways.
+template <int length>
+struct RowProbes {
+    Probes<length> up, down;  ///< down: of the reversed row
+    std::uint32_t up_end = 0;
+    static constexpr std::uint32_t down_end = 32 * static_cast<std::uint32_t>(length);
+
+    RowProbes(const RowBits<length>& row, int resolution)
+        : up(probes_of(row, static_cast<std::uint32_t>(resolution))),
+          down(probes_of(reversed(row), down_end)),
+          up_end(static_cast<std::uint32_t>(resolution)) {}
+
+    /// How many rays there are in all.
+    std::uint32_t rays() const {
+        std::uint32_t sum = 0;
+        for (std::size_t k = 0; k < up.count; ++k) sum += up_end - up.probes[k].start;
+        for (std::size_t k = 0; k < down.count; ++k) sum += down_end - down.probes[k].start;
+        return sum;
+    }
+};
+
+/// How many of the rays another row answers differently: for each start, the voxels between the first blockers.
+template <int length>
+std::uint32_t differing_rays(const RowProbes<length>& probes, const RowBits<length>& other) {
+    const auto differing = [](const Probes<length>& way, const RowPlanes<length>& planes, std::uint32_t end) {
+        std::uint32_t sum = 0;
+        for (std::size_t k = 0; k < way.count; ++k) {
+            const std::uint32_t blocker = next_set(planes, way.probes[k].start, end);
+            sum += std::max(blocker, way.probes[k].blocker) - std::min(blocker, way.probes[k].blocker);
+        }
+        return sum;
+    };
+    return differing(probes.up, planes_of(other), probes.up_end) +
+           differing(probes.down, planes_of(reversed(other)), probes.down_end);
+}
+
+/// Voxels that are set in one of the rows only.
+template <int length>
+std::uint32_t differing_voxels(const RowBits<length>& a, const RowBits<length>& b) {
+    int sum = 0;
+    for (std::size_t k = 0; k < length; ++k) sum += std::popcount(a.words[k] ^ b.words[k]);
+    return static_cast<std::uint32_t>(sum);
+}
+
+}  // namespace sightlines::voxel_rows
