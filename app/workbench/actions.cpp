@@ -76,7 +76,7 @@ constexpr KeyPress control_shift(int key) { return {.key = key, .control = true,
 constexpr std::string_view ray = "The selected ray", image = "Image", views = "View", session = "Session",
                            window = "Window";
 
-constexpr std::array<Action, 32> table{{
+constexpr std::array<Action, 35> table{{
     {ActionId::step_forward, ray, "Step forward", plain(GLFW_KEY_RIGHT), plain(GLFW_KEY_SPACE), go_by<1>},
     {ActionId::step_back, ray, "Step back", plain(GLFW_KEY_LEFT), plain(GLFW_KEY_BACKSPACE), go_by<-1>},
     {ActionId::first_step, ray, "First step", plain(GLFW_KEY_HOME), {}, go_by<-(1 << 20)>},
@@ -130,6 +130,19 @@ constexpr std::array<Action, 32> table{{
      plain(GLFW_KEY_R),
      {},
      [](Frame& frame) { frame.next.free_camera.reset(); }},
+    {ActionId::play, image, "Play or pause the scene's time", plain(GLFW_KEY_P), {}, toggle_playing},
+    {ActionId::time_forward,
+     image,
+     "A frame on in time",
+     plain(GLFW_KEY_PERIOD),
+     {},
+     [](Frame& frame) { step_time(frame, 1); }},
+    {ActionId::time_back,
+     image,
+     "A frame back in time",
+     plain(GLFW_KEY_COMMA),
+     {},
+     [](Frame& frame) { step_time(frame, -1); }},
     {ActionId::reframe,
      views,
      "Turn the view inside back to the row",

@@ -92,6 +92,8 @@ void draw_top_bar(Frame& frame, const Area& area) {
     ImGui::SameLine();
     draw_backend_menu(frame, std::min(menu, 120.0f * frame.scale));
     tooltip(frame, "Where the technique runs");
+    ImGui::SameLine(0.0f, 16.0f * frame.scale);
+    draw_time(frame, area.size.x - buttons - 20.0f * frame.scale - ImGui::GetCursorPosX());
     ImGui::SameLine();
     ImGui::SetCursorPosX(area.size.x - buttons - 4.0f * frame.scale);
     run_button(frame, ActionId::undo, Icon::undo, frame.can_undo);
@@ -198,6 +200,19 @@ void draw_work(Frame& frame, const Work& work) {
     tooltip(frame, "Stop", "Esc");
 }
 
+/// The action's first key.
+std::string key_text(ActionId id) {
+    const std::string all = keys_text(find_action(id));
+    return all.substr(0, all.find(" or "));
+}
+
+/// What the keyboard does for whoever looks at a ray.
+std::string key_hint(const Frame& frame) {
+    const std::string keys = key_text(ActionId::keys) + " lists the keys";
+    if (recorded_steps(frame).empty()) return keys;
+    return key_text(ActionId::step_back) + " and " + key_text(ActionId::step_forward) + " step along the ray, " + keys;
+}
+
 /// Build time, frame time, rays a second, error: as far as they are known.
 std::string measured_text(const Measured& measured) {
     std::string text;
@@ -225,6 +240,8 @@ void draw_status_bar(Frame& frame, const Area& area) {
         if (ImGui::SmallButton("Go on")) resume(frame.background);
     } else {
         text_in(frame.fonts.small, frame.colours.muted, "Ready");
+        ImGui::SameLine(0.0f, 16.0f * frame.scale);
+        text_in(frame.fonts.small, frame.colours.faint, key_hint(frame));
     }
     ImGui::SameLine();
     left_end = ImGui::GetCursorPosX();

@@ -1,6 +1,7 @@
 // What every part of the window is given to draw itself once, and where its edits go.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -28,6 +29,12 @@ struct Message {
 /// Which dialog is open, and what was typed into it so far.
 enum class Dialog { none, keys, open_scene, open_session, save_session };
 
+/// The scene's time runs as the clock does, but only moves on when the picture of the last moment is there.
+struct Playing {
+    std::chrono::steady_clock::time_point since;
+    double from_s = 0.0;  ///< the scene's time then
+};
+
 /// What the window remembers between frames and no session holds: where the mouse is, what is half typed. Losing it
 /// loses no work.
 struct Ui {
@@ -42,6 +49,7 @@ struct Ui {
     std::uint32_t scrolled_line = 0;     ///< of the source: the line that was last brought into view
     std::string scrolled_file;
     std::optional<std::uint32_t> scrolled_ray;  ///< the light whose row of the table was last brought into view
+    std::optional<Playing> playing;
     bool quitting = false;
 };
 

@@ -27,6 +27,12 @@ void draw_values(Frame& frame);
 void draw_parameters(Frame& frame);
 
 void draw_top_bar(Frame& frame, const Area& area);
+/// Inside the top bar, at most `width` wide; nothing where nothing moves.
+void draw_time(Frame& frame, float width);
+void step_time(Frame& frame, int frames);
+void toggle_playing(Frame& frame);
+/// Moves the time on, while playing.
+void go_on_playing(Frame& frame);
 void draw_step_bar(Frame& frame, const Area& area);
 void draw_status_bar(Frame& frame, const Area& area);
 void draw_splitters(Frame& frame, const Arrangement& areas);

@@ -162,6 +162,11 @@ void draw_icon(ImDrawList& list, Icon icon, vec2 centre, float size, ImU32 colou
         case Icon::to_start:
             pen.arrow(0.75f, -0.35f);
             return pen.block({-0.75f, -0.75f}, {-0.45f, 0.75f});
+        case Icon::play:
+            return pen.arrow(-0.55f, 0.75f);
+        case Icon::pause:
+            pen.block({-0.6f, -0.7f}, {-0.15f, 0.7f});
+            return pen.block({0.15f, -0.7f}, {0.6f, 0.7f});
         case Icon::undo:
             return pen.turn(1.0f);
         case Icon::redo:

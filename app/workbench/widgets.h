@@ -48,6 +48,8 @@ enum class Icon {
     back,
     forward,
     to_end,
+    play,
+    pause,
     undo,
     redo,
     help,

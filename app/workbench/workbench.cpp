@@ -124,6 +124,7 @@ void take_scene(Frame& frame) {
     next.camera.clear();
     next.free_camera.reset();
     next.time_s = 0.0;
+    frame.ui.playing.reset();
     next.lights.moved.clear();
     next.selection = {};
     set_inside_state(next, reframed(inside_state(next)));
@@ -248,6 +249,7 @@ double draw_frame(Bench& bench, const WindowEvents& events) {
     open_dropped(frame, events.dropped_files);
     take_scene(frame);
     run_keys(frame, events.keys);
+    go_on_playing(frame);
     draw_everything(frame, areas);
     if (events.closing) bench.ui.quitting = true;
     commit(bench, frame);
