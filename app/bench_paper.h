@@ -1,0 +1,57 @@
+// The figures of the papers' tables, as data.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace sightlines {
+
+/// One figure as printed.
+struct PaperFigure {
+    std::string_view scene;     ///< as our scene of the same name
+    std::string_view quantity;  ///< as in our rows
+    double at = 0.0;            ///< what the table varies; 0: nothing
+    double value = 0.0;
+};
+
+/// What quantities are called, in the papers' rows and ours.
+namespace quantity {
+constexpr std::string_view visibility = "visibility error, voxel rows";
+constexpr std::string_view shadow = "shadow error, voxel rows";
+constexpr std::string_view imperfect_visibility = "visibility error, imperfect shadow maps";
+constexpr std::string_view imperfect_shadow = "shadow error, imperfect shadow maps";
+constexpr std::string_view render_time = "render time";
+constexpr std::string_view over_ray_tracing = "speedup over ray tracing";
+constexpr std::string_view over_shadow_maps = "speedup over shadow maps";
+constexpr std::string_view shadow_map_resolution = "resolution of those shadow maps";
+constexpr std::string_view time_per_light = "time per light, to the fewest";
+constexpr std::string_view row_query_time = "voxel rows";
+constexpr std::string_view voxel_marching_time = "voxel marching";
+constexpr std::string_view over_voxel_marching = "speedup over voxel marching";
+constexpr std::string_view row_marching_time = "row marching";
+constexpr std::string_view over_row_marching = "speedup over row marching";
+constexpr std::string_view uncompressed = "uncompressed";
+constexpr std::string_view compressed = "compressed";
+constexpr std::string_view plain_visibility = "visibility error, uncompressed";
+constexpr std::string_view plain_shadow = "shadow error, uncompressed";
+constexpr std::string_view compressed_visibility = "visibility error, compressed";
+constexpr std::string_view compressed_shadow = "shadow error, compressed";
+constexpr std::string_view voxelization_time = "voxelization";
+constexpr std::string_view compression_time = "compression";
+}  // namespace quantity
+
+/// All figures of Wang 2017's table `number` (1 to 11), or of Figure 7 (`number` 0): those that its text gives.
+std::span<const PaperFigure> wang_2017(int number);
+
+/// The figure for these, where the paper has one.
+std::optional<double> find_figure(std::span<const PaperFigure> figures, std::string_view scene,
+                                  std::string_view quantity, double at);
+
+constexpr std::string_view wang_2017_citation =
+    "L. Wang, X. Liang, C. Meng, V. Popescu: Fast Ray-Scene Intersection for Interactive Shadow Rendering with "
+    "Thousands "
+    "of Dynamic Lights. IEEE TVCG, 2017";
+constexpr std::string_view wang_2017_hardware = "Intel Core i7-4770, 3.5 GHz, 8 GB; NVIDIA GeForce GTX 1080";
+
+}  // namespace sightlines
