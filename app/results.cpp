@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <utility>
 
 #include "techniques/base/error.h"
@@ -60,6 +61,16 @@ Shared<Value> Stage<Value>::get(const Session& part, Progress& progress, bool fo
     made->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     keep(part, made);
     return made;
+}
+
+std::filesystem::path default_cache_folder() {
+    namespace fs = std::filesystem;
+    const char* const wish = std::getenv("SIGHTLINES_CACHE");
+    if (wish != nullptr && std::string(wish) == "off") return {};
+    const char* const cache = std::getenv("XDG_CACHE_HOME");
+    if (cache != nullptr && fs::path(cache).is_absolute()) return fs::path(cache) / "sightlines" / "arrays";
+    const char* const home = std::getenv("HOME");
+    return home == nullptr ? fs::path() : fs::path(home) / ".cache" / "sightlines" / "arrays";
 }
 
 Camera session_camera(const Session& session, const Scene& scene) {
@@ -211,7 +222,8 @@ Shared<BuiltStructure> Results::structure(const Session& session, Progress& prog
     const Session part = structure_key(session, scene->value);
     return structure_.get(part, progress, true, [&] {
         BuiltStructure built{&find_technique(session.technique), scene, {}, {}};
-        BuildRequest request{&scene->value, technique_parameters(session), backend(session), threads_, {}};
+        BuildRequest request{&scene->value, technique_parameters(session), backend(session), threads_};
+        request.cache_folder = cache_folder;
         Session at_any_time = part;
         at_any_time.time_s = 0.0;
         if (kept_part_ == at_any_time) request.kept = kept_;

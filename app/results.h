@@ -101,6 +101,9 @@ public:
     /// `automatic` is called once, by the thread that first needs to know: asking the driver takes time.
     Results(int threads, std::function<Backend()> automatic) : threads_(threads), automatic_(std::move(automatic)) {}
 
+    /// Where structures that take long to build are kept between runs. Set before the first use; empty: nowhere.
+    std::filesystem::path cache_folder;
+
     Shared<SceneModel> model(const Session& session, Progress& progress);
     /// As `model`, but what was there stays until the new one is read: for a scene that is only tried.
     Shared<SceneModel> tried_model(const Session& session, Progress& progress);
@@ -148,6 +151,9 @@ private:
     Stage<RenderResult> picture_, reference_;
     Stage<ErrorMetrics> errors_;
 };
+
+/// In the user's cache (XDG_CACHE_HOME); empty where SIGHTLINES_CACHE is "off".
+std::filesystem::path default_cache_folder();
 
 /// The camera of the session in `scene`: the free one, else the named one, else the first.
 Camera session_camera(const Session& session, const Scene& scene);

@@ -3,6 +3,7 @@
 
 #include <any>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -97,6 +98,7 @@ struct BuildRequest {
     /// What Technique::kept gave for the same scene and parameters at another time, or nothing. Saves work; the
     /// structure is the same without.
     std::any kept = {};
+    std::filesystem::path cache_folder = {};  ///< for what takes long to build, between runs; empty: nothing is kept
 };
 
 /// One row of the catalog. Plain functions; no state.

@@ -84,6 +84,7 @@ void add_figure_command(CLI::App& app, Command& chosen) {
         chosen = {[flags](Progress& progress) {
                       const Session session = session_with_flags({}, flags->session);
                       Results results(thread_flag(flags->common), command_backend(session));
+                      results.cache_folder = default_cache_folder();
                       return figure_to_files(session, flags->figure, results, flags->common, progress);
                   },
                   flags->common.quiet};

@@ -38,6 +38,7 @@ CommandOutput run_trace(const TraceFlags& flags, Progress& progress) {
     if (!flags.out.empty()) check_extension(flags.out, {".json"});
     check_outputs({flags.out});
     Results results(thread_flag(flags.common), command_backend(session));
+    results.cache_folder = default_cache_folder();
     CommandOutput output{{}, results.scene(session, progress)->value.notes};
     if (!flags.ray.empty()) session.selection.light = light_of_ray(session, flags.ray, results, progress);
     const SelectedRay ray = select_ray(session, results, progress);

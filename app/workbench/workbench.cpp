@@ -67,6 +67,7 @@ struct Bench {
     }
     /// The work begins before the window opens: both take their time.
     std::string started(const Session& session) {
+        results.cache_folder = default_cache_folder();
         want(background, session, true);
         return "Sightlines";
     }

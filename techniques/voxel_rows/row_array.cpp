@@ -74,11 +74,14 @@ RowShape make_shape(const RowArray& array) {
     return shape;
 }
 
+RowGrid make_grid(const Scene& scene, const BuildOptions& options) {
+    const Box3& bounds = scene.motion_bounds.empty() ? scene.bounds : scene.motion_bounds;
+    return make_grid(bounds, options.resolution, options.angle_step_deg);
+}
+
 RowArray allocate_array(const Scene& scene, const BuildOptions& options) {
     RowArray array;
-    // What moves stays inside the grid at all times.
-    const Box3& bounds = scene.motion_bounds.empty() ? scene.bounds : scene.motion_bounds;
-    array.grid = make_grid(bounds, options.resolution, options.angle_step_deg);
+    array.grid = make_grid(scene, options);
     const std::size_t words = array.grid.rows() * static_cast<std::size_t>(array.grid.words_per_row);
     array.words = options.allocate ? options.allocate(words) : allocate_huge(words);
     return array;

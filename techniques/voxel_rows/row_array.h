@@ -67,6 +67,9 @@ struct BuildOptions {
 /// Frames for every direction, each box fitted to the scene's bounds.
 RowGrid make_grid(const Box3& bounds, int resolution, double angle_step_deg);
 
+/// The grid of the scene's array: what moves stays inside it at all times.
+RowGrid make_grid(const Scene& scene, const BuildOptions& options);
+
 /// What the kernel must know of the grid, or of the array; the query's offsets are left at zero.
 RowShape make_shape(const RowGrid& grid);
 RowShape make_shape(const RowArray& array);

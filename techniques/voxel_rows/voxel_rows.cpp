@@ -2,8 +2,10 @@
 
 #include <array>
 
+#include "techniques/base/error.h"
 #include "techniques/base/huge_buffer.h"
 #include "techniques/scene/moving_parts.h"
+#include "techniques/voxel_rows/array_cache.h"
 #include "techniques/voxel_rows/dictionary.h"
 #include "techniques/voxel_rows/memory_need.h"
 #include "techniques/voxel_rows/moving_rows.h"
@@ -19,6 +21,8 @@ struct BuiltRows {
     std::shared_ptr<const VulkanRows> on_device;  ///< where it was built for Vulkan
 };
 using BuiltRowsPointer = std::shared_ptr<const BuiltRows>;
+
+constexpr std::uint64_t cache_limit_bytes = std::uint64_t{4} << 30u;  // ten arrays of the usual size
 
 constexpr std::array<std::string_view, 2> builds{"fragments", "direct"};
 
@@ -55,9 +59,8 @@ constexpr std::array<Parameter, 17> parameters{{
     {"dictionary_rows", "Dictionary rows", "", ParameterKind::integer, ParameterAffects::structure, 1024, 4194304,
      1048576, 1048576, "How many rows the dictionary keeps."},
     {"dictionary_choice", "Dictionary choice", "", ParameterKind::choice, ParameterAffects::structure, 0, 1, 1, 0,
-     "Which rows the dictionary keeps: the most frequent ones, as in the paper, or those that stand for many others "
-     "when "
-     "down-sampled.",
+     "Which rows the dictionary keeps: the most frequent ones, as in the paper, or also rows that stand for many "
+     "others down-sampled.",
      dictionary_choices},
     {"compression_steps", "Compression steps", "", ParameterKind::integer, ParameterAffects::structure, 1, 6, 4, 4,
      "A row that is not in the dictionary is looked for down-sampled by 2, by 4 and so on: so many steps, counting the "
@@ -95,12 +98,8 @@ BuildOptions build_options(const BuildRequest& request) {
     return options;
 }
 
-/// The whole scene at once.
-RowArray build_rows(const BuildRequest& request, const BuildOptions& options, Progress& progress) {
+DictionaryOptions dictionary_options(const BuildRequest& request) {
     const auto value = [&](std::string_view name) { return parameter_value(parameters, request.parameters, name); };
-    RowArray array = value("build") == 0.0 ? build_from_fragments(*request.scene, options, progress)
-                                           : build_directly(*request.scene, options, progress);
-    if (value("compression") == 0.0) return array;
     DictionaryOptions dictionary;
     dictionary.rows = static_cast<std::uint32_t>(value("dictionary_rows"));
     dictionary.choice = value("dictionary_choice") == 0.0 ? DictionaryChoice::frequent : DictionaryChoice::covering;
@@ -108,7 +107,32 @@ RowArray build_rows(const BuildRequest& request, const BuildOptions& options, Pr
     dictionary.leftovers = value("leftover_rows") == 0.0 ? Leftovers::random : Leftovers::nearest;
     dictionary.packed = value("index_bits") == 0.0;
     dictionary.threads = request.threads;
-    return compress(array, dictionary, progress);
+    return dictionary;
+}
+
+RowArray build_uncompressed(const BuildRequest& request, const BuildOptions& options, Progress& progress) {
+    require_memory(options.resolution, options.angle_step_deg, available_memory_bytes());
+    const bool directly = parameter_value(parameters, request.parameters, "build") != 0.0;
+    return directly ? build_directly(*request.scene, options, progress)
+                    : build_from_fragments(*request.scene, options, progress);
+}
+
+/// The array of the whole scene, from the disk where it was kept there.
+RowArray build_compressed(const BuildRequest& request, const BuildOptions& options, Progress& progress) {
+    const DictionaryOptions dictionary = dictionary_options(request);
+    const bool directly = parameter_value(parameters, request.parameters, "build") != 0.0;
+    const auto& folder = request.cache_folder;
+    const std::string key = folder.empty() ? "" : array_key(*request.scene, options, directly, dictionary);
+    if (!folder.empty())
+        if (std::optional<RowArray> ready = load_array(folder, key, make_grid(*request.scene, options)))
+            return std::move(*ready);
+    RowArray array = compress(build_uncompressed(request, options, progress), dictionary, progress);
+    try {
+        if (!folder.empty()) save_array(folder, key, array, cache_limit_bytes);
+    } catch (const EnvironmentError&) {
+        // A full disk costs the next start some seconds, and this one nothing.
+    }
+    return array;
 }
 
 Structure build(const BuildRequest& request, Progress& progress) {
@@ -127,8 +151,8 @@ Structure build(const BuildRequest& request, Progress& progress) {
         built->array = std::move(now.array);
         built->moment = std::move(now.moment);
     } else {
-        require_memory(options.resolution, options.angle_step_deg, available_memory_bytes());
-        built->array = build_rows(request, options, progress);
+        built->array = value("compression") == 0.0 ? build_uncompressed(request, options, progress)
+                                                   : build_compressed(request, options, progress);
     }
     if (request.backend == Backend::vulkan) built->on_device = give_to_vulkan(built->array, progress);
     return BuiltRowsPointer(built);

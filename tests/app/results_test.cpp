@@ -1,8 +1,10 @@
 #include "app/results.h"
 
+#include <filesystem>
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "techniques/base/error.h"
 
@@ -133,6 +135,53 @@ TEST(Results, RefuseMoreRaysThanCanBeCompared) {
     session.size = {4096, 4096};
     session.lights.count = 65536;
     EXPECT_THROW(results.picture(session, progress), InputError);
+}
+
+TEST(Results, DoNotRebuildTheStructureAtAnotherTimeWhereNothingMoves) {
+    Results results(0, Backend::cpu);
+    Progress progress;
+    Session session = small_session();
+    session.scene = "garden";  // a sun that moves over a garden that does not
+    const auto structure = results.structure(session, progress);
+    session.time_s = 3.0;
+    EXPECT_EQ(results.structure(session, progress), structure);
+    EXPECT_EQ(results.latest_structure(session), structure);
+}
+
+TEST(Results, AMovingScenesPictureDoesNotDependOnTheTimesBefore) {
+    Progress progress;
+    Session session = small_session();
+    session.scene = "bear";
+    Results straight(0, Backend::cpu), by_detours(0, Backend::cpu);
+    for (const double time_s : {0.0, 2.0, 0.5}) {
+        session.time_s = time_s;
+        by_detours.picture(session, progress);
+    }
+    const auto expected = straight.picture(session, progress), got = by_detours.picture(session, progress);
+    EXPECT_EQ(expected->value.radiance.pixels, got->value.radiance.pixels);
+    EXPECT_NE(by_detours.structure(session, progress), straight.structure(session, progress));
+}
+
+TEST(Results, KeepCompressedStructuresInTheFolderThatIsGiven) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::temp_directory_path() / ("sightlines-results-" + std::to_string(getpid()));
+    fs::remove_all(folder);
+    Progress progress;
+    Session session = small_session();
+    session.parameters["voxel_rows"]["compression"] = 1.0;
+    session.parameters["voxel_rows"]["dictionary_rows"] = 1024.0;
+    const auto picture = [&] {
+        Results results(0, Backend::cpu);
+        results.cache_folder = folder;
+        return results.picture(session, progress)->value.radiance.pixels;
+    };
+    const auto made = picture();
+    ASSERT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+    const fs::path file = fs::directory_iterator(folder)->path();
+    EXPECT_EQ(picture(), made);
+    fs::resize_file(file, fs::file_size(file) / 2);
+    EXPECT_EQ(picture(), made);
+    fs::remove_all(folder);
 }
 
 }  // namespace
