@@ -120,7 +120,7 @@ namespace {
 /// Eight rows from `w` on, one after the other: rows of 64 bits and more as they are, shorter ones cut off.
 template <int words_per_row>
 void collect_eight(const SliceBits& bits, int w, std::uint32_t* rows) {
-    constexpr int blocks = (words_per_row + 1) / 2;
+    const int blocks = std::min((words_per_row + 1) / 2, bits.side / 64);  // 129 to 192 voxels: 6 of 8 words
     constexpr std::size_t bytes = std::min(words_per_row, 2) * sizeof(std::uint32_t);
     for (int k = 0; k < 8; ++k)
         for (int block = 0; block < blocks; ++block)
@@ -135,7 +135,7 @@ void store_rows(RowArray& array, const RowShape& shape, scalar_kernel::Direction
                 Storing storing) {
     constexpr std::size_t words = std::size_t{8} * words_per_row;
     const hn::CappedTag<std::uint32_t, std::min<std::size_t>(words, 16)> tag;
-    alignas(64) std::array<std::uint32_t, words> rows;
+    alignas(64) std::array<std::uint32_t, words> rows{};
     for (int w = 0; w < shape.resolution; w += 8) {
         collect_eight<words_per_row>(bits, w, rows.data());
         std::uint32_t* const to = &array.words.words[scalar_kernel::row_index(shape, steps, v, w) * words_per_row];
