@@ -289,5 +289,30 @@ TEST(SliceBits, SetsWhatHoldsEnoughAloneOrWithAnEmptierNeighbourAndTransposes) {
     }
 }
 
+TEST(SliceBits, AreStoredWholeWithNothingBehindTheirVoxels) {
+    for (const int n : {32, 64, 100, 128, 160, 192, 256}) {
+        RowArray array;
+        array.grid = make_grid(Box3{vec3(0.0f), vec3(1.0f)}, n, 90.0);
+        const auto length = static_cast<std::size_t>(array.grid.words_per_row);
+        array.words = allocate_huge(array.grid.rows() * length);
+        std::ranges::fill(array.words.words, 0xffffffffu);
+        const RowShape shape = make_shape(array.grid);
+        SliceBits bits(n);
+        for (std::size_t k = 0; k < bits.words.size(); ++k)
+            bits.words[k] = std::uint64_t{random_u32(9, static_cast<std::uint32_t>(k), 0)} << (k % 32u);
+        store_slice(array, shape, 1, 5, bits);
+        finish_storing();
+        for (int w = 0; w < n; ++w) {
+            const auto row = row_words(array, scalar_kernel::row_index(shape, {0, 1}, 5, w));
+            for (std::size_t word = 0; word < length; ++word) {
+                const auto block = static_cast<int>(word / 2);
+                const std::uint64_t stored =
+                    64 * block < bits.side ? bits.words[static_cast<std::size_t>(block * bits.side + w)] : 0;
+                ASSERT_EQ(row[word], static_cast<std::uint32_t>(stored >> (32 * (word % 2)))) << n << ' ' << w;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace sightlines::voxel_rows
