@@ -19,9 +19,9 @@ struct Frame {
 };
 
 FN Frame load_frame(FrameTable frames, Int direction) {
-    const auto u = gather_four_floats(&frames.v[0].u.x, direction, sizeof(DirectionFrame) / sizeof(float));
-    const auto w = gather_four_floats(&frames.v[0].w.x, direction, sizeof(DirectionFrame) / sizeof(float));
-    return {{u[0], u[1], u[2]}, u[3], {w[0], w[1], w[2]}, w[3]};
+    const FourReals u = gather_four_floats(&frames.v[0].u.x, direction, sizeof(DirectionFrame) / sizeof(float));
+    const FourReals w = gather_four_floats(&frames.v[0].w.x, direction, sizeof(DirectionFrame) / sizeof(float));
+    return {{u.x, u.y, u.z}, u.w, {w.x, w.y, w.z}, w.w};
 }
 
 BUFFER_REF(Rows, uint);

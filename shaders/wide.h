@@ -197,8 +197,13 @@ HWY_INLINE FourWords gather_four_words(const uint* words, UInt index, int stride
 }
 #endif
 
+/// Four neighbouring numbers of a table, for each ray.
+struct FourReals {
+    Real x, y, z, w;
+};
+
 /// numbers[index * stride + 0 .. 3] for each ray.
-HWY_INLINE std::array<Real, 4> gather_four_floats(const float* numbers, Int index, int stride) {
+HWY_INLINE FourReals gather_four_floats(const float* numbers, Int index, int stride) {
     const FourWords four = gather_four_words(reinterpret_cast<const uint*>(numbers), to_uint(index), stride);
     const auto real = [](UInt word) { return Real{hn::BitCast(RealTag(), word.v)}; };
     return {real(four.x), real(four.y), real(four.z), real(four.w)};

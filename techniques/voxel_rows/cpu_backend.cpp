@@ -34,7 +34,7 @@ using wide::Vec3;
 
 constexpr int tile_width = 64, tile_height = 64;  ///< pixels; a tile's sums and surfaces stay in the second-level cache
 constexpr float inverse_pi = 0.318309886f;
-constexpr std::size_t batch_vectors = 32;             ///< that go through a step together
+constexpr std::size_t batch_vectors = 64;             ///< that go through a step together
 constexpr std::uint32_t lights_between_checks = 256;  ///< whether to stop
 
 /// What is summed for each pixel of a tile.
@@ -51,6 +51,7 @@ struct TileSums {
 /// One vector of rays on its way through the steps.
 struct PendingRays {
     wide::Direction direction;
+    Int frame;               ///< its place in the table
     wide::RowSpan spans[2];  ///< [subrays]
 };
 
@@ -83,7 +84,7 @@ HWY_INLINE Vec3 load_three(const std::vector<float> (&axes)[3], std::size_t star
 
 /// The rows of some rays spread over the block of 4 x 4 pixels; those of the others mostly share their cache lines.
 HWY_INLINE void prefetch_rows(const wide::Rows& rows, const UInt& row, int words_per_row) {
-    constexpr std::size_t step = lanes == 16 ? 3 : 1;
+    constexpr std::size_t step = lanes == 16 ? 5 : 1;
     const auto* index = reinterpret_cast<const uint*>(&row);
     for (std::size_t lane = 0; lane < lanes; lane += step)
         __builtin_prefetch(rows.v + static_cast<std::size_t>(index[lane]) * words_per_row);
@@ -157,12 +158,14 @@ HWY_INLINE void locate(const TileWork& work, const RowShape& query, const LightR
     const std::size_t vectors = batch.vectors();
     for (std::size_t k = 0; k < vectors; ++k) {
         const Vec3 along_ray = load_light_end(batch, light, k * lanes) - load_end(batch, 0, k * lanes);
-        batch.pending[k].direction = wide::discretize_direction(query, along_ray);
+        PendingRays& rays = batch.pending[k];
+        rays.direction = wide::discretize_direction(query, along_ray);
+        rays.frame = wide::frame_index(query, rays.direction);
     }
     for (std::size_t k = 0; k < vectors; ++k) {
         PendingRays& rays = batch.pending[k];
         const Vec3 a = load_end(batch, 0, k * lanes), b = load_light_end(batch, light, k * lanes);
-        const wide::Frame frame = wide::load_frame(work.frames, wide::frame_index(query, rays.direction));
+        const wide::Frame frame = wide::load_frame(work.frames, rays.frame);
         for (int part = 0; part < query.subrays; ++part)
             rays.spans[part] = wide::locate_part(query, frame, rays.direction, a, b, part);
     }
@@ -261,31 +264,27 @@ void ask_tile(const TileWork& work, TileSums& sums) {
     const std::size_t vectors = work.pixels.pixel.size() / lanes;
     std::array<Batch, stages> batches;
     std::array<std::uint32_t, batch_vectors + 2> blocked{};
-    std::size_t newest = 0;
-    // Of the older batches: the last but one gets its rows, the oldest its answers. They start out empty.
-    const auto go_on = [&] {
-        if constexpr (index_bits != 0) look_up_indices(work, query, batches[(newest + stages - 1) % stages]);
-        const Batch& oldest = batches[(newest + 1) % stages];
+    const std::size_t batches_per_light = (vectors + batch_vectors - 1) / batch_vectors;
+    const std::size_t count = batches_per_light * work.lights.size();
+    // Of the older batches the last but one gets its rows, the oldest its answers. They start and end empty. One place
+    // for each step: compiled out of line, they would not see what is constant of the query.
+    for (std::size_t step = 0; step < count + stages - 1; ++step) {
+        Batch& newest = batches[step % stages];
+        newest.count = newest.rays = 0;
+        if (step < count) {
+            newest.light = static_cast<std::uint32_t>(step / batches_per_light);
+            newest.first = step % batches_per_light * batch_vectors;
+            newest.count = std::min(batch_vectors, vectors - newest.first);
+            if (work.progress != nullptr && newest.first == 0 && newest.light % lights_between_checks == 0)
+                work.progress->check();
+            const LightRecord record = work.lights[newest.light];
+            gather_asked(work, query, record, newest);
+            locate(work, query, record, newest);
+        }
+        if constexpr (index_bits != 0) look_up_indices(work, query, batches[(step + stages - 1) % stages]);
+        const Batch& oldest = batches[(step + 1) % stages];
         look(work, query, oldest, blocked);
         add_answers<shade>(work, oldest, blocked, sums);
-        newest = (newest + 1) % stages;
-    };
-    for (std::uint32_t light = 0; light < work.lights.size(); ++light) {
-        if (work.progress != nullptr && light % lights_between_checks == 0) work.progress->check();
-        const LightRecord record = work.lights[light];
-        for (std::size_t first = 0; first < vectors; first += batch_vectors) {
-            Batch& now = batches[newest];
-            now.light = light;
-            now.first = first;
-            now.count = std::min(batch_vectors, vectors - first);
-            gather_asked(work, query, record, now);
-            locate(work, query, record, now);
-            go_on();
-        }
-    }
-    for (std::size_t stage = 1; stage < stages; ++stage) {
-        batches[newest].count = batches[newest].rays = 0;
-        go_on();
     }
 }
 
