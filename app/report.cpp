@@ -92,6 +92,7 @@ RenderReport render_session(const Session& session, Results& results, Progress& 
         report.reference = results.reference(session, progress);
         report.errors = results.errors(session, progress);
     }
+    if (session.channel == Channel::compression) report.compression = results.compression(session, progress);
     return report;
 }
 
@@ -124,6 +125,7 @@ Json json_from_report(const RenderReport& report) {
                          {"rmse", errors.rmse},
                          {"max_abs", errors.max_abs}};
     }
+    if (report.compression) json["compression_changed_percent"] = report.compression->value.visibility_percent;
     return json;
 }
 
@@ -140,6 +142,9 @@ std::string text_from_report(const RenderReport& report) {
                         count_text(report.lights->value.size()) + " lights");
     line("device", picture.device);
     line("structure", bytes_text(statistics.structure_bytes) + ", built in " + seconds_text(statistics.build_seconds));
+    if (statistics.compress_seconds > 0.0)
+        line("compressed",
+             "from " + bytes_text(statistics.uncompressed_bytes) + " in " + seconds_text(statistics.compress_seconds));
     line("shadow rays", count_text(picture.rays) + " in " + seconds_text(picture.seconds) + " (" +
                             rate_text(rays_per_second(picture)) + "), " + percent_text(blocked_percent(picture)) +
                             " blocked");
@@ -152,11 +157,15 @@ std::string text_from_report(const RenderReport& report) {
         line("shadow error", percent_text(errors.shadow_percent) + " mean difference of a pixel's shadow");
         line("radiance error", "RMSE " + fixed_text(errors.rmse, 4) + ", at most " + fixed_text(errors.max_abs, 4));
     }
+    if (report.compression)
+        line("compression",
+             "changed " + percent_text(report.compression->value.visibility_percent) + " of the rays' answers");
     line("peak memory", bytes_text(peak_memory_bytes()));
     return text_from(table);
 }
 
 bool can_show(Channel channel, const ChannelSource& from) {
+    if (channel == Channel::compression) return from.compression != nullptr;
     const bool compares = channel == Channel::visibility_error || channel == Channel::shadow_error;
     return compares ? from.errors != nullptr : channel != Channel::reference || from.reference != nullptr;
 }
@@ -177,6 +186,8 @@ ImageRgba8 shown_channel(Channel channel, const Display& display, const ChannelS
                 return part_shown(from.errors->visibility_error, rect, mapped(0.0f, visibility_error_shown));
             case Channel::shadow_error:
                 return part_shown(from.errors->shadow_error, rect, mapped(-1.0f, 1.0f));
+            case Channel::compression:
+                return part_shown(from.compression->visibility_error, rect, mapped(0.0f, compression_shown));
             case Channel::rays:
                 return counts_shown(*from.picture, rect, from.lights, false);
             case Channel::lights_seen:
@@ -188,7 +199,8 @@ ImageRgba8 shown_channel(Channel channel, const Display& display, const ChannelS
 ImageRgba8 shown_channel(const RenderReport& report) {
     const RenderResult& picture = report.picture->value;
     const ChannelSource from{&picture, report.reference ? &report.reference->value : nullptr,
-                             report.errors ? &report.errors->value : nullptr, report.lights->value.size()};
+                             report.errors ? &report.errors->value : nullptr, report.lights->value.size(),
+                             report.compression ? &report.compression->value : nullptr};
     const ImageSize size = picture.radiance.size;
     return shown_channel(report.session.channel, report.session.display, from, {0, 0, size.width, size.height});
 }

@@ -10,6 +10,8 @@ namespace sightlines {
 
 /// The share of a pixel's rays judged wrongly that the error picture shows brightest.
 constexpr float visibility_error_shown = 0.5f;
+/// The share of a pixel's rays changed by compression that its heat map shows brightest.
+constexpr float compression_shown = 0.1f;
 
 /// Everything that a report is made from, of one session.
 struct RenderReport {
@@ -19,9 +21,10 @@ struct RenderReport {
     Shared<std::vector<Light>> lights;
     Shared<BuiltStructure> structure;
     Shared<RenderResult> picture;
-    Shared<RenderResult> reference;  ///< null without
-    Shared<ErrorMetrics> errors;     ///< null without
-    double load_seconds = 0.0;       ///< file and scene, not the reference's hierarchy
+    Shared<RenderResult> reference;    ///< null without
+    Shared<ErrorMetrics> errors;       ///< null without
+    Shared<ErrorMetrics> compression;  ///< null unless the session's channel shows it
+    double load_seconds = 0.0;         ///< file and scene, not the reference's hierarchy
 };
 
 /// Makes the picture, and the reference where the session asks for one.
@@ -33,12 +36,13 @@ Json json_from_report(const RenderReport& report);
 /// Aligned lines for a newcomer. `title` heads them.
 std::string text_from_report(const RenderReport& report);
 
-/// What the channels of a picture are drawn from. Reference and errors are null where they are not known.
+/// What the channels of a picture are drawn from. What is not known is null.
 struct ChannelSource {
     const RenderResult* picture = nullptr;
     const RenderResult* reference = nullptr;
     const ErrorMetrics* errors = nullptr;
-    std::size_t lights = 0;  ///< that the scene has
+    std::size_t lights = 0;                     ///< that the scene has
+    const ErrorMetrics* compression = nullptr;  ///< Results::compression
 };
 
 /// Whether all is known that the channel is drawn from.

@@ -268,6 +268,24 @@ Shared<ErrorMetrics> Results::errors(const Session& session, Progress& progress)
                        [&] { return compare(ours->value, truth->value); });
 }
 
+Shared<ErrorMetrics> Results::compression(const Session& session, Progress& progress) {
+    const auto ours = picture(session, progress);
+    const auto lights = this->lights(session, progress);
+    const auto scene = this->scene(session, progress);
+    const auto surfaces = this->surfaces(session, progress);
+    return compression_.get(picture_part(resolved(session)), progress, false, [&] {
+        Session plain = session;
+        plain.parameters[session.technique].erase("compression");
+        if (plain == session) return compare(ours->value, ours->value);
+        // Not a stage of its own: it is large, and needed once.
+        const Technique& technique = find_technique(session.technique);
+        const Structure structure =
+            technique.build({&scene->value, technique_parameters(plain), backend(plain), threads_}, progress);
+        return compare(ours->value,
+                       technique.render(structure, request(plain, surfaces->value, lights->value), progress));
+    });
+}
+
 Shared<RenderResult> Results::latest_picture(const Session& session) const {
     if (picture_.empty()) return nullptr;
     Session part = picture_part(resolved(session));

@@ -119,6 +119,10 @@ public:
     /// The technique's picture against the reference; the session must ask for the reference.
     Shared<ErrorMetrics> errors(const Session& session, Progress& progress);
 
+    /// The technique's picture against that of the same structure before compression: what its visibility errors are of
+    /// is what compression changed. All the same where nothing is compressed. The session must ask for the reference.
+    Shared<ErrorMetrics> compression(const Session& session, Progress& progress);
+
     /// What is there already, without waiting: for the screen, which shows what it has while the next is being made.
     Shared<RenderResult> latest_picture(const Session& session) const;
     Shared<BuiltStructure> latest_structure(const Session& session) const;
@@ -149,7 +153,7 @@ private:
     std::any kept_;  ///< for the structure of another time; only its maker touches these two
     std::optional<Session> kept_part_;
     Stage<RenderResult> picture_, reference_;
-    Stage<ErrorMetrics> errors_;
+    Stage<ErrorMetrics> errors_, compression_;
 };
 
 /// In the user's cache (XDG_CACHE_HOME); empty where SIGHTLINES_CACHE is "off".

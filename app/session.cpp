@@ -25,8 +25,8 @@ constexpr std::array<std::string_view, 3> backend_names{"automatic", "cpu", "vul
 constexpr std::array<std::string_view, 2> camera_kind_names{"perspective", "orthographic"};
 constexpr std::array<std::string_view, 3> theme_names{"light", "dark", "print"};
 constexpr std::array<std::string_view, 2> cut_away_names{"none", "to_row"};
-constexpr std::array<std::string_view, 7> channel_names{"lit",          "reference", "shadow",     "visibility_error",
-                                                        "shadow_error", "rays",      "lights_seen"};
+constexpr std::array<std::string_view, 8> channel_names{"lit",          "reference", "shadow",      "visibility_error",
+                                                        "shadow_error", "rays",      "lights_seen", "compression"};
 
 constexpr std::array<std::string_view, pane_count> content_names{"image",  "inside", "rays",
                                                                  "source", "values", "parameters"};
@@ -198,7 +198,7 @@ bool has_picture(const Camera& camera) {
 
 bool needs_reference(const Session& session) {
     return session.reference || session.channel == Channel::reference || session.channel == Channel::visibility_error ||
-           session.channel == Channel::shadow_error;
+           session.channel == Channel::shadow_error || session.channel == Channel::compression;
 }
 
 ParameterValues technique_parameters(const Session& session) {

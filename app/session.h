@@ -32,8 +32,9 @@ constexpr std::size_t max_moved_lights = 256;
 /// `automatic`: Vulkan on a real GPU, the CPU where there is none.
 enum class BackendChoice { automatic, cpu, vulkan };
 
-/// Which picture is shown: radiance by the technique or by the reference, or one of the technique's companions.
-enum class Channel { lit, reference, shadow, visibility_error, shadow_error, rays, lights_seen };
+/// Which picture is shown: radiance by the technique or by the reference, one of the technique's companions, or what its
+/// compression changed.
+enum class Channel { lit, reference, shadow, visibility_error, shadow_error, rays, lights_seen, compression };
 
 /// What the user points at. `light` counts the session's lights, `step` the recorded steps of that ray.
 struct Selection {
@@ -112,7 +113,8 @@ struct Session {
     bool operator==(const Session&) const = default;
 };
 
-/// Whether Embree must answer the same rays: the session says so, or shows a channel that compares.
+/// Whether every ray's answer is kept and Embree answers the same rays: the session says so, or shows a channel that
+/// compares.
 bool needs_reference(const Session& session);
 
 /// The parameters of the session's own technique.

@@ -7,6 +7,8 @@
 #include "techniques/base/error.h"
 #include "techniques/base/files.h"
 #include "visualizers/bit_strip.h"
+#include "visualizers/dictionary_panel.h"
+#include "visualizers/lit_marks.h"
 #include "visualizers/theme.h"
 #include "visualizers/voxel_row_marks.h"
 #include "visualizers/vtk_export.h"
@@ -95,19 +97,45 @@ std::vector<std::uint8_t> voxel_row_figure(VoxelRowView& view, const VoxelRowPic
     return finished_file(canvas);
 }
 
-std::vector<std::filesystem::path> write_voxel_row_figure(VoxelRowView& view, const VoxelRowPicture& picture,
-                                                          const ViewState& state, const FigureOptions& options,
-                                                          const std::filesystem::path& folder) {
-    if (options.format == FigureFormat::vtk) return write_voxel_row_vtk(picture, folder);
+std::vector<std::uint8_t> dictionary_figure(InsideView& view, const DictionaryPicture& picture, const ViewState& state,
+                                            CanvasFormat format, const FigureOptions& options) {
+    check_options(options);
+    const float width = std::round(options.width_mm * points_per_mm);
+    const float panel = dictionary_panel_height({width, 10.0f * width}, text_height);
+    const ImageSize in_space{static_cast<int>(width), static_cast<int>(std::round(0.45f * width))};
+    const float height = static_cast<float>(in_space.height);
+    const float scale = options.dpi / 72.0f;
+    const ImageSize pixels{static_cast<int>(std::round(width * scale)), static_cast<int>(std::round(height * scale))};
+    const Palette colours = palette(state.theme);
+    Canvas canvas = make_page_canvas(format, {width, std::ceil(height + panel)}, options.dpi);
+    if (state.theme != Theme::print) fill_rectangle(canvas, {{0.0f, 0.0f}, canvas.size}, colours.page);
+    draw_picture(canvas, {{0.0f, 0.0f}, {width, height}},
+                 render_solid(view.voxel_rows, picture.row, state, pixels, pixels.width > supersampled_width ? 1 : 2));
+    draw_lit(canvas, view_camera(shown_camera(picture.row, state, in_space), in_space), differing_voxels(picture),
+             colours, text_height / 12.0f, Emphasis::step);
+    draw_voxel_row_marks(canvas, picture.row, state, in_space, text_height / 12.0f, MarksKey::none);
+    draw_line(canvas, {0.0f, height}, {width, height}, {.colour = colours.hairline, .width = 0.5f});
+    draw_dictionary_panel(canvas, picture, state, {{0.0f, height}, {width, panel}}, text_height);
+    return finished_file(canvas);
+}
+
+std::vector<std::filesystem::path> write_figure(InsideView& view, const InsidePicture& picture, std::string_view name,
+                                                const ViewState& state, const FigureOptions& options,
+                                                const std::filesystem::path& folder) {
+    const auto* dictionary = std::get_if<DictionaryPicture>(&picture);
+    if (options.format == FigureFormat::vtk && dictionary)
+        throw InputError("--format", "vtk", "is not a format of this figure",
+                         "it can be png, svg or pdf; the figure voxel-row has VTK data");
+    if (options.format == FigureFormat::vtk) return write_voxel_row_vtk(rows_in_space(picture), folder);
     const CanvasFormat format = options.format == FigureFormat::svg   ? CanvasFormat::svg
                                 : options.format == FigureFormat::pdf ? CanvasFormat::pdf
                                                                       : CanvasFormat::png;
-    const char* const name = format == CanvasFormat::svg   ? "voxel-row.svg"
-                             : format == CanvasFormat::pdf ? "voxel-row.pdf"
-                                                           : "voxel-row.png";
-    check_writable(folder / name);
-    write_file(folder / name, voxel_row_figure(view, picture, state, format, options));
-    return {folder / name};
+    const char* const extension = format == CanvasFormat::svg ? ".svg" : format == CanvasFormat::pdf ? ".pdf" : ".png";
+    const std::filesystem::path file = folder / (std::string(name) + extension);
+    check_writable(file);
+    write_file(file, dictionary ? dictionary_figure(view, *dictionary, state, format, options)
+                                : voxel_row_figure(view.voxel_rows, rows_in_space(picture), state, format, options));
+    return {file};
 }
 
 }  // namespace sightlines

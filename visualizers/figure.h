@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "visualizers/canvas.h"
+#include "visualizers/inside_view.h"
 #include "visualizers/voxel_row_view.h"
 
 namespace sightlines {
@@ -26,10 +27,15 @@ struct FigureOptions {
 std::vector<std::uint8_t> voxel_row_figure(VoxelRowView& view, const VoxelRowPicture& picture, const ViewState& state,
                                            CanvasFormat format, const FigureOptions& options);
 
-/// Writes the figure as `folder`/voxel-row.EXTENSION, or for VTK the pieces and voxel-row.vtm that names them, each
-/// whole or not at all. Gives the files written, the one to open first. EnvironmentError where that is not possible.
-std::vector<std::filesystem::path> write_voxel_row_figure(VoxelRowView& view, const VoxelRowPicture& picture,
-                                                          const ViewState& state, const FigureOptions& options,
-                                                          const std::filesystem::path& folder);
+/// The voxels before compression, with the row's differing bits in frames, and the panel of the dictionary below.
+std::vector<std::uint8_t> dictionary_figure(InsideView& view, const DictionaryPicture& picture, const ViewState& state,
+                                            CanvasFormat format, const FigureOptions& options);
+
+/// Writes the figure as `folder`/`name`.EXTENSION, or for VTK the pieces and voxel-row.vtm that names them, each whole
+/// or not at all. Gives the files written, the one to open first. EnvironmentError where that is not possible,
+/// InputError where the figure has no data for VTK.
+std::vector<std::filesystem::path> write_figure(InsideView& view, const InsidePicture& picture, std::string_view name,
+                                                const ViewState& state, const FigureOptions& options,
+                                                const std::filesystem::path& folder);
 
 }  // namespace sightlines

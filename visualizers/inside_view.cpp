@@ -1,6 +1,9 @@
 #include "visualizers/inside_view.h"
 
+#include <algorithm>
+
 #include "visualizers/canvas.h"
+#include "visualizers/dictionary_panel.h"
 #include "visualizers/lit_marks.h"
 #include "visualizers/raster.h"
 #include "visualizers/theme.h"
@@ -19,6 +22,30 @@ bool is_same_solid(const VoxelRowPicture& a, const VoxelRowPicture& b) {
            a.last == b.last && a.ray.origin == b.ray.origin && a.ray.target == b.ray.target;
 }
 
+constexpr float body_text_pixels = 12.0f;  // at text scale 1
+
+/// How much of a view the part in space takes: all of it, or what is above the panel.
+ImageSize size_in_space(const InsidePicture& picture, ImageSize size, float text_scale) {
+    if (!std::holds_alternative<DictionaryPicture>(picture)) return size;
+    const float panel = dictionary_panel_height(vec2(size.width, size.height), body_text_pixels * text_scale);
+    return {size.width, std::max(1, size.height - static_cast<int>(panel))};
+}
+
+/// The view in space above, the panel below it.
+ImageRgba8 with_panel(const ImageRgba8& above, const DictionaryPicture& picture, const ViewState& state, ImageSize size,
+                      float text_scale) {
+    ImageRgba8 whole(size, {0, 0, 0, 0});
+    std::ranges::copy(above.pixels, whole.pixels.begin());
+    Canvas canvas = make_picture_canvas(whole);
+    const Rectangle panel{vec2(0, above.size.height), vec2(size.width, size.height - above.size.height)};
+    if (panel.size.y < 1.0f) return whole;
+    if (state.theme != Theme::print) fill_rectangle(canvas, panel, palette(state.theme).page);
+    draw_line(canvas, panel.corner, panel.corner + vec2(panel.size.x, 0.0f),
+              {.colour = palette(state.theme).hairline, .width = text_scale});
+    draw_dictionary_panel(canvas, picture, state, panel, body_text_pixels * text_scale);
+    return finished_picture(canvas);
+}
+
 const ImageRgba8& solid_part(InsideView& view, const InsidePicture& picture, const ViewState& state, ImageSize size,
                              int samples_per_axis) {
     SolidDrawn& latest = view.latest;
@@ -26,9 +53,7 @@ const ImageRgba8& solid_part(InsideView& view, const InsidePicture& picture, con
         latest.samples_per_axis == samples_per_axis)
         return latest.pixels;
     latest.picture.reset();  // nothing half-valid stays where drawing fails
-    latest.pixels = std::visit(
-        [&](const VoxelRowPicture& rows) { return render_solid(view.voxel_rows, rows, state, size, samples_per_axis); },
-        picture);
+    latest.pixels = render_solid(view.voxel_rows, rows_in_space(picture), state, size, samples_per_axis);
     if (state.theme != Theme::print) latest.pixels = over_page(latest.pixels, palette(state.theme).page);
     latest.state = state;
     latest.size = size;
@@ -61,41 +86,59 @@ std::string geometry_of_voxel(const VoxelRowPicture& picture, ivec3 voxel) {
 
 }  // namespace
 
-OrbitCamera shown_camera(const InsidePicture& picture, const ViewState& state, ImageSize size) {
-    return std::visit([&](const VoxelRowPicture& rows) { return shown_camera(rows, state, size); }, picture);
+const VoxelRowPicture& rows_in_space(const InsidePicture& picture) {
+    if (const auto* dictionary = std::get_if<DictionaryPicture>(&picture)) return dictionary->row;
+    return std::get<VoxelRowPicture>(picture);
+}
+
+OrbitCamera shown_camera(const InsidePicture& picture, const ViewState& state, ImageSize size, float text_scale) {
+    return shown_camera(rows_in_space(picture), state, size_in_space(picture, size, text_scale));
 }
 
 bool same_solid(const InsidePicture& a, const InsidePicture& b) {
-    return is_same_solid(std::get<VoxelRowPicture>(a), std::get<VoxelRowPicture>(b));
+    return a.index() == b.index() && is_same_solid(rows_in_space(a), rows_in_space(b));
 }
 
 ImageRgba8 render(InsideView& view, const InsidePicture& picture, const ViewState& state, const LitGeometry& lit,
                   ImageSize size, int samples_per_axis, float text_scale) {
-    Canvas canvas = make_picture_canvas(solid_part(view, picture, state, size, samples_per_axis));
-    const ViewCamera camera = view_camera(shown_camera(picture, state, size), size);
+    const auto* dictionary = std::get_if<DictionaryPicture>(&picture);
+    const ImageSize in_space = size_in_space(picture, size, text_scale);
+    const VoxelRowPicture& rows = rows_in_space(picture);
+    Canvas canvas = make_picture_canvas(solid_part(view, picture, state, in_space, samples_per_axis));
+    const ViewCamera camera = view_camera(shown_camera(rows, state, in_space), in_space);
     const Palette colours = palette(state.theme);
     draw_lit(canvas, camera, lit.step, colours, text_scale, Emphasis::step);
-    draw_voxel_row_marks(canvas, std::get<VoxelRowPicture>(picture), state, size, text_scale, MarksKey::in_corner);
+    if (dictionary) draw_lit(canvas, camera, differing_voxels(*dictionary), colours, text_scale, Emphasis::step);
+    draw_voxel_row_marks(canvas, rows, state, in_space, text_scale, dictionary ? MarksKey::none : MarksKey::in_corner);
     draw_lit(canvas, camera, lit.pointed, colours, text_scale, Emphasis::pointed);
-    return finished_picture(canvas);
+    ImageRgba8 drawn = finished_picture(canvas);
+    return dictionary ? with_panel(drawn, *dictionary, state, size, text_scale) : drawn;
 }
 
-TraceGeometry voxel_box(const InsidePicture& picture, ivec3 voxel) {
-    const VoxelRowPicture& rows = std::get<VoxelRowPicture>(picture);
+TraceGeometry voxel_box(const VoxelRowPicture& rows, ivec3 voxel) {
     const mat4& world = rows.world_from_voxels;
     std::string name = "voxel " + std::to_string(voxel.x);
     for (const int index : {voxel.y, voxel.z}) name.append(", ").append(std::to_string(index));
     return {name, TraceShape::box, {world_point(rows, vec3(voxel)), vec3(world[0]), vec3(world[1]), vec3(world[2])}};
 }
 
+std::vector<TraceGeometry> differing_voxels(const DictionaryPicture& picture) {
+    std::vector<TraceGeometry> boxes;
+    for (int u = 0; u < picture.row.resolution; ++u)
+        if (differs(picture, u)) boxes.push_back(voxel_box(picture.row, {u, picture.row.v, picture.row.w}));
+    return boxes;
+}
+
 PickedInside pick(const InsidePicture& picture, const ViewState& state, std::span<const TraceGeometry> recorded,
-                  ImageSize size, vec2 pixel) {
-    const ViewCamera camera = view_camera(shown_camera(picture, state, size), size);
+                  ImageSize size, vec2 pixel, float text_scale) {
+    const VoxelRowPicture& rows = rows_in_space(picture);
+    const ImageSize in_space = size_in_space(picture, size, text_scale);
+    if (pixel.y >= static_cast<float>(in_space.height)) return {};
+    const ViewCamera camera = view_camera(shown_camera(rows, state, in_space), in_space);
     PickedInside picked;
     picked.geometry = nearest_geometry(camera, recorded, pixel);
     if (!picked.geometry.empty()) return picked;
-    const auto& rows = std::get<VoxelRowPicture>(picture);
-    picked.voxel = pick(rows, state, size, pixel);
+    picked.voxel = pick(rows, state, in_space, pixel);
     if (picked.voxel) picked.geometry = geometry_of_voxel(rows, *picked.voxel);
     return picked;
 }

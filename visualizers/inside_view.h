@@ -9,12 +9,16 @@
 #include <vector>
 
 #include "shaders/trace.h"
+#include "visualizers/dictionary_picture.h"
 #include "visualizers/voxel_row_view.h"
 
 namespace sightlines {
 
-/// What a view inside shows; the alternatives are the explicit list of techniques that have one.
-using InsidePicture = std::variant<VoxelRowPicture>;
+/// What a view inside shows; the alternatives are the explicit list of views.
+using InsidePicture = std::variant<VoxelRowPicture, DictionaryPicture>;
+
+/// The part of the picture that lies in space.
+const VoxelRowPicture& rows_in_space(const InsidePicture& picture);
 
 /// The solid part of a view as it was drawn last, and what it was drawn from.
 struct SolidDrawn {
@@ -40,7 +44,8 @@ struct LitGeometry {
     bool operator==(const LitGeometry&) const = default;
 };
 
-OrbitCamera shown_camera(const InsidePicture& picture, const ViewState& state, ImageSize size);
+/// `text_scale`, here and below, is the height of body text over 12 pixels.
+OrbitCamera shown_camera(const InsidePicture& picture, const ViewState& state, ImageSize size, float text_scale = 1.0f);
 /// As render() of the technique's own view, with `lit` on top.
 ImageRgba8 render(InsideView& view, const InsidePicture& picture, const ViewState& state, const LitGeometry& lit,
                   ImageSize size, int samples_per_axis, float text_scale);
@@ -49,7 +54,10 @@ ImageRgba8 render(InsideView& view, const InsidePicture& picture, const ViewStat
 bool same_solid(const InsidePicture& a, const InsidePicture& b);
 
 /// A cell of the technique's own data as a box to be lit, with its place for a name.
-TraceGeometry voxel_box(const InsidePicture& picture, ivec3 voxel);
+TraceGeometry voxel_box(const VoxelRowPicture& picture, ivec3 voxel);
+
+/// The voxels in which the own row and the dictionary's differ, as boxes.
+std::vector<TraceGeometry> differing_voxels(const DictionaryPicture& picture);
 
 /// What lies under a pixel of the view.
 struct PickedInside {
@@ -59,6 +67,6 @@ struct PickedInside {
 /// `recorded` is the geometry of all steps of the ray; lines and points within 6 pixels count before voxels do, points
 /// before lines. A voxel of the row that serves the ray is "extent" where the ray's extent keeps it, else "row".
 PickedInside pick(const InsidePicture& picture, const ViewState& state, std::span<const TraceGeometry> recorded,
-                  ImageSize size, vec2 pixel);
+                  ImageSize size, vec2 pixel, float text_scale = 1.0f);
 
 }  // namespace sightlines

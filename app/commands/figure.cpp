@@ -29,6 +29,8 @@ CommandOutput figure_to_files(const Session& session, const FigureFlags& flags, 
     if (session.technique != figure.technique)
         throw InputError("figure " + name, "", "shows the inside of " + std::string(figure.technique),
                          "give --technique " + std::string(figure.technique));
+    if (!can_show(figure, session))
+        throw InputError("figure " + name, "", "shows a structure that is compressed", "give --set compression=on");
     FigureOptions options;
     if (!flags.dpi.empty()) options.dpi = static_cast<float>(real_number("--dpi", flags.dpi, lowest_dpi, highest_dpi));
     std::vector<FigureFormat> formats;
@@ -37,16 +39,19 @@ CommandOutput figure_to_files(const Session& session, const FigureFlags& flags, 
     check_folder(flags.folder);
 
     const SelectedRay ray = select_ray(session, results, progress);
-    const VoxelRowPicture picture = voxel_row_picture(session, ray, results, progress);
+    Session shown = session;
+    show_figure(shown, name);
+    UnpackedVoxels unpacked;
+    const InsidePicture picture = inside_picture(shown, ray, results, progress, unpacked);
     progress.begin("drawing the figure", static_cast<std::int64_t>(formats.size()));
-    VoxelRowView view;
+    InsideView view;
     make_folder(flags.folder);
     CommandOutput output{{}, results.scene(session, progress)->value.notes};
     Json files = Json::array();
     for (const FigureFormat format : formats) {
         progress.check();
         options.format = format;
-        const auto written = write_voxel_row_figure(view, picture, view_state(session, name), options, flags.folder);
+        const auto written = write_figure(view, picture, name, view_state(session, name), options, flags.folder);
         for (const auto& file : written) files.push_back(file.string());
         if (!common.json && !common.quiet) output.text += "wrote " + written.front().string() + "\n";
         progress.advance();

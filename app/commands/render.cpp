@@ -17,21 +17,28 @@ void add_render_output_flags(CLI::App& command, RenderOutputs& outputs) {
         .add_option("--error-out", outputs.error_picture,
                     "Write the share of wrongly judged rays as a picture (asks for --reference)")
         ->type_name("FILE.png");
+    command
+        .add_option("--compression-out", outputs.compression_picture,
+                    "Write the share of rays that compression changed as a picture (asks for --reference)")
+        ->type_name("FILE.png");
     command.add_option("--save-session", outputs.session, "Write the session, for `sightlines workspace`")
         ->type_name("FILE.json");
 }
 
 void check_render_outputs(const RenderOutputs& outputs) {
     check_extension(outputs.picture, {".png", ".hdr"});
-    if (!outputs.error_picture.empty()) check_extension(outputs.error_picture, {".png"});
-    check_outputs({outputs.picture, outputs.report, outputs.error_picture, outputs.session});
+    for (const auto& file : {outputs.error_picture, outputs.compression_picture})
+        if (!file.empty()) check_extension(file, {".png"});
+    check_outputs(
+        {outputs.picture, outputs.report, outputs.error_picture, outputs.compression_picture, outputs.session});
 }
 
 CommandOutput render_to_files(Session session, const RenderOutputs& outputs, Results& results,
                               const CommonFlags& common, Progress& progress) {
     check_render_outputs(outputs);
-    session.reference = session.reference || !outputs.error_picture.empty();
-    const RenderReport report = render_session(session, results, progress);
+    session.reference = session.reference || !outputs.error_picture.empty() || !outputs.compression_picture.empty();
+    RenderReport report = render_session(session, results, progress);
+    if (!outputs.compression_picture.empty()) report.compression = results.compression(session, progress);
     CommandOutput output{{}, report.scene->value.notes};
     if (!session.environment.empty())
         output.notes.push_back("the environment " + session.environment + " is left out: " + session.technique +
@@ -41,11 +48,14 @@ CommandOutput render_to_files(Session session, const RenderOutputs& outputs, Res
         write_image(outputs.picture, report.picture->value.radiance, session.display);
     else
         write_png(outputs.picture, shown_channel(report));
-    if (!outputs.error_picture.empty()) {
-        RenderReport as_errors = report;
-        as_errors.session.channel = Channel::visibility_error;
-        write_png(outputs.error_picture, shown_channel(as_errors));
-    }
+    const auto write_channel = [&](const std::filesystem::path& file, Channel channel) {
+        if (file.empty()) return;
+        RenderReport shown = report;
+        shown.session.channel = channel;
+        write_png(file, shown_channel(shown));
+    };
+    write_channel(outputs.error_picture, Channel::visibility_error);
+    write_channel(outputs.compression_picture, Channel::compression);
     const Json json = json_from_report(report);
     if (!outputs.report.empty()) write_file(outputs.report, json_text(json));
     if (!outputs.session.empty()) save_session(outputs.session, session);
@@ -55,6 +65,9 @@ CommandOutput render_to_files(Session session, const RenderOutputs& outputs, Res
     if (!outputs.error_picture.empty())
         output.text += "wrote " + outputs.error_picture.string() + " (dark: no ray judged wrongly; brightest: " +
                        percent_text(100.0 * static_cast<double>(visibility_error_shown)) + " or more)\n";
+    if (!outputs.compression_picture.empty())
+        output.text += "wrote " + outputs.compression_picture.string() + " (dark: no ray changed; brightest: " +
+                       percent_text(100.0 * static_cast<double>(compression_shown)) + " or more)\n";
     for (const auto& file : {outputs.report, outputs.session})
         if (!file.empty()) output.text += "wrote " + file.string() + "\n";
     return output;

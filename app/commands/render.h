@@ -13,10 +13,10 @@ namespace sightlines {
 
 /// Which files to write; those that are empty are not.
 struct RenderOutputs {
-    std::filesystem::path picture, report, error_picture, session;
+    std::filesystem::path picture, report, error_picture, compression_picture, session;
 };
 
-/// --report, --error-out and --save-session; the picture's own flag is the command's.
+/// --report, --error-out, --compression-out and --save-session; the picture's own flag is the command's.
 void add_render_output_flags(CLI::App& command, RenderOutputs& outputs);
 
 /// Checks that everything can be written, renders, writes, and gives the report (as JSON with --json, none with

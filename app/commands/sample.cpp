@@ -31,8 +31,11 @@ CommandOutput run_sample(Progress& progress) {
     session.lights.count = 1024;
     session.size = {960, 540};
     const CommonFlags common;
-    const RenderOutputs outputs{folder / "atrium.png", folder / "report.json", folder / "atrium-errors.png",
-                                folder / "session.json"};
+    const RenderOutputs outputs{.picture = folder / "atrium.png",
+                                .report = folder / "report.json",
+                                .error_picture = folder / "atrium-errors.png",
+                                .compression_picture = {},
+                                .session = folder / "session.json"};
     Results results(thread_flag(common), command_backend(session));
     session.reference = true;
     CommandOutput output = render_to_files(session, outputs, results, common, progress);

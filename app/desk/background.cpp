@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/desk/lanes.h"
+#include "app/inside.h"
 
 namespace sightlines {
 namespace {
@@ -48,7 +49,9 @@ Session stage_key(const Session& session) {
 Session rays_key(const Session& session, bool light) {
     Session key = stage_key(session);
     key.selection.pixel = session.selection.pixel;
-    if (light) key.selection.light = session.selection.light;
+    if (!light) return key;
+    key.selection.light = session.selection.light;
+    key.views = {View{std::string(shown_figure(session)), {}}};  // whose picture is taken out of the structure
     return key;
 }
 

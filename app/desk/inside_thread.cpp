@@ -103,7 +103,8 @@ struct InsideThread::Objects {
                                    request.text_scale);
         const std::chrono::duration<double> seconds = Clock::now() - start;
         auto done = std::make_shared<const InsideShown>(
-            InsideShown{request, std::move(pixels), shown_camera(*request.picture, request.state, request.size),
+            InsideShown{request, std::move(pixels),
+                        shown_camera(*request.picture, request.state, request.size, request.text_scale),
                         drawing.samples, seconds.count()});
         {
             const std::lock_guard lock(mutex);

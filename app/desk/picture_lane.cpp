@@ -172,10 +172,10 @@ void make_draft(const Job& job) {
 
 /// Puts out what is known now of the finished picture. Until the reference is there, a channel that compares shows the
 /// lit picture.
-void put_out_finished(const Job& job, const RenderResult& picture, const RenderResult* reference,
-                      const ErrorMetrics* errors) {
+void put_out_finished(const Job& job, const RenderResult& picture, const RenderResult* reference = nullptr,
+                      const ErrorMetrics* errors = nullptr, const ErrorMetrics* compression = nullptr) {
     const Session looks = with_newest_looks(job.objects(), job.session);
-    const ChannelSource from{&picture, reference, errors, job.lights->value.size()};
+    const ChannelSource from{&picture, reference, errors, job.lights->value.size(), compression};
     put_out_picture(job.objects(), pixels_of(looks, from), looks,
                     can_show(looks.channel, from) ? PictureState::complete : PictureState::refining);
 }
@@ -214,7 +214,8 @@ std::uint64_t newest_number(const Background::Objects& objects) {
 }
 
 bool compares(Channel channel) {
-    return channel == Channel::reference || channel == Channel::visibility_error || channel == Channel::shadow_error;
+    return channel == Channel::reference || channel == Channel::visibility_error || channel == Channel::shadow_error ||
+           channel == Channel::compression;
 }
 
 /// Whether a picture of this channel is shown, which stays until the next that compares is there.
@@ -233,7 +234,7 @@ Shared<RenderResult> make_reference(const Job& job, const Shared<RenderResult>& 
     const auto on_region = [&](const RenderResult& so_far, PixelRect changed) {
         if (job.session.channel == Channel::reference) return refine(refining, so_far, changed);
         if (compares(job.session.channel) || std::exchange(looks, newest_number(job.objects())) == looks) return;
-        put_out_finished(job, picture->value, nullptr, nullptr);
+        put_out_finished(job, picture->value);
     };
     return job.results().reference(job.session, job.progress, on_region);
 }
@@ -246,12 +247,16 @@ void compare_with_reference(const Job& job, const Shared<RenderResult>& picture)
     }
     if (!known) {
         put_out_measured(job, picture, nullptr);
-        if (!compares(job.session.channel)) put_out_finished(job, picture->value, nullptr, nullptr);
+        if (!compares(job.session.channel)) put_out_finished(job, picture->value);
     }
     const auto reference = known ? job.results().reference(job.session, job.progress) : make_reference(job, picture);
     const auto errors = job.results().errors(job.session, job.progress);
     if (!known) put_out_measured(job, picture, errors);
-    if (!known || !is_put_out(job, picture)) put_out_finished(job, picture->value, &reference->value, &errors->value);
+    if (known && is_put_out(job, picture)) return;
+    const auto compression =
+        job.session.channel == Channel::compression ? job.results().compression(job.session, job.progress) : nullptr;
+    put_out_finished(job, picture->value, &reference->value, &errors->value,
+                     compression ? &compression->value : nullptr);
 }
 
 /// The technique's picture, finer and finer on the screen.
@@ -278,7 +283,7 @@ void make_picture(Job job) {
     if (needs_reference(job.session)) return compare_with_reference(job, picture);
     if (is_put_out(job, picture)) return;
     put_out_measured(job, picture, nullptr);
-    put_out_finished(job, picture->value, nullptr, nullptr);
+    put_out_finished(job, picture->value);
 }
 
 /// The next thing to work on; null when the program ends.

@@ -82,9 +82,8 @@ void follow_rays(RaysLane& lane, const Session& session, Progress& progress) {
     const auto ray = std::make_shared<const SelectedRay>(select_ray(session, *rays, results, progress));
     put_out(objects, [&](Shown& shown) { replace_shown(objects, shown.ray, ray); });
     std::shared_ptr<const InsidePicture> inside;
-    if (session.technique == "voxel_rows")
-        inside =
-            std::make_shared<const InsidePicture>(voxel_row_picture(session, *ray, results, progress, lane.unpacked));
+    if (!shown_figure(session).empty())
+        inside = std::make_shared<const InsidePicture>(inside_picture(session, *ray, results, progress, lane.unpacked));
     put_out(objects, [&](Shown& shown) { replace_shown(objects, shown.inside, inside); });
 }
 

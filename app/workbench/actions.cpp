@@ -76,7 +76,7 @@ constexpr KeyPress control_shift(int key) { return {.key = key, .control = true,
 constexpr std::string_view ray = "The selected ray", image = "Image", views = "View", session = "Session",
                            window = "Window";
 
-constexpr std::array<Action, 35> table{{
+constexpr std::array<Action, 36> table{{
     {ActionId::step_forward, ray, "Step forward", plain(GLFW_KEY_RIGHT), plain(GLFW_KEY_SPACE), go_by<1>},
     {ActionId::step_back, ray, "Step back", plain(GLFW_KEY_LEFT), plain(GLFW_KEY_BACKSPACE), go_by<-1>},
     {ActionId::first_step, ray, "First step", plain(GLFW_KEY_HOME), {}, go_by<-(1 << 20)>},
@@ -110,6 +110,12 @@ constexpr std::array<Action, 35> table{{
      plain(GLFW_KEY_7),
      {},
      show_channel<Channel::shadow_error>},
+    {ActionId::compression,
+     image,
+     "Show what compression changed",
+     plain(GLFW_KEY_8),
+     {},
+     show_channel<Channel::compression>},
     {ActionId::compare,
      image,
      "Measure the error against ray tracing",

@@ -23,6 +23,7 @@ enum class ActionId {
     rays_asked,
     visibility_error,
     shadow_error,
+    compression,
     compare,
     lights_shown,
     exposure_up,

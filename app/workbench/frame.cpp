@@ -5,18 +5,14 @@
 #include "app/inside.h"
 
 namespace sightlines {
-namespace {
 
-constexpr std::string_view shown_figure = "voxel-row";
-
-}  // namespace
-
-ViewState inside_state(const Session& session) { return view_state(session, shown_figure); }
+ViewState inside_state(const Session& session) { return view_state(session, shown_figure(session)); }
 
 void set_inside_state(Session& session, const ViewState& state) {
     if (state == inside_state(session)) return;
-    auto open = std::ranges::find(session.views, shown_figure, &View::figure);
-    if (open == session.views.end()) open = session.views.insert(open, View{std::string(shown_figure), {}});
+    const std::string_view figure = shown_figure(session);
+    auto open = std::ranges::find(session.views, figure, &View::figure);
+    if (open == session.views.end()) open = session.views.insert(open, View{std::string(figure), {}});
     open->state = state;
 }
 
@@ -44,9 +40,11 @@ bool ray_is_current(const Frame& frame) {
 
 std::string ray_failure_text(const Frame& frame) {
     if (!frame.shown.ray_failure) return {};
-    // The command line's flags mean nothing here.
+    // The command line's flags mean nothing here: "--light: 17 stands" becomes "light 17 stands".
     const std::string& message = frame.shown.ray_failure->message;
-    return message.starts_with("--") ? message.substr(message.find(": ") + 2) : message;
+    const std::size_t colon = message.find(": ");
+    if (!message.starts_with("--") || colon == std::string::npos) return message;
+    return message.substr(2, colon - 2) + message.substr(colon + 1);
 }
 
 void select_pixel(Frame& frame, ivec2 pixel) {

@@ -18,7 +18,7 @@ namespace {
 constexpr float handle_radius = 7.0f;  // of the light's handle
 constexpr float fly_share = 0.12f;     // of the scene's diagonal, a second
 
-constexpr std::array<ChannelRow, 7> channels{{
+constexpr std::array<ChannelRow, 8> channels{{
     {Channel::lit, "Lit", "Radiance by the technique"},
     {Channel::reference, "Ray traced", "Radiance by Embree: the same rays, answered exactly"},
     {Channel::shadow, "Shadow", "Share of a pixel's light rays that are blocked"},
@@ -26,6 +26,7 @@ constexpr std::array<ChannelRow, 7> channels{{
     {Channel::rays, "Rays asked", "How many lights stand in front of each surface"},
     {Channel::visibility_error, "Visibility error", "Share of a pixel's rays that are judged wrongly"},
     {Channel::shadow_error, "Shadow error", "Our shadow value less the true one"},
+    {Channel::compression, "Compression", "Share of a pixel's rays whose answer compression changed"},
 }};
 
 /// Where the picture lies in the body, and how positions map.
@@ -131,6 +132,9 @@ void draw_legend(const Frame& frame, const Placed& where) {
             break;
         case Channel::visibility_error:
             high = percent_text(100.0 * static_cast<double>(visibility_error_shown)) + " or more";
+            break;
+        case Channel::compression:
+            high = percent_text(100.0 * static_cast<double>(compression_shown)) + " or more";
             break;
         case Channel::shadow_error:
             low = "too light";

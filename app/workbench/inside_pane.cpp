@@ -1,6 +1,7 @@
 // The view inside: VTK's picture from its own thread, turned by the mouse; a click selects the step that touched it.
 #include <cmath>
 
+#include "app/inside.h"
 #include "app/workbench/panes.h"
 #include "app/workbench/widgets.h"
 
@@ -24,7 +25,8 @@ void go_to_geometry(Frame& frame, const std::string& name) {
 
 void pick_at(Frame& frame, const InsideShown& held, vec2 pixel) {
     const auto geometry = recorded_geometry(recorded_steps(frame));
-    const PickedInside picked = pick(*held.request.picture, held.request.state, geometry, held.request.size, pixel);
+    const InsideRequest& drawn = held.request;
+    const PickedInside picked = pick(*drawn.picture, drawn.state, geometry, drawn.size, pixel, drawn.text_scale);
     frame.next.selection.voxel = picked.voxel;
     if (!picked.geometry.empty()) go_to_geometry(frame, picked.geometry);
 }
@@ -59,7 +61,19 @@ void handle_mouse(Frame& frame, const Area& body, const InsideShown& held) {
     set_inside_state(frame.next, state);
 }
 
+/// Which view of the technique is shown, where it has several.
+void draw_figure_choice(Frame& frame) {
+    const std::string_view now = shown_figure(frame.next);
+    for (const FigureRow& figure : figures())
+        if (can_show(figure, frame.next) && ImGui::RadioButton(std::string(figure.title).c_str(), figure.name == now))
+            show_figure(frame.next, figure.name);
+    ImGui::Separator();
+}
+
 void draw_options(Frame& frame) {
+    const bool has_choice =
+        std::ranges::count_if(figures(), [&](const FigureRow& figure) { return can_show(figure, frame.next); }) > 1;
+    if (has_choice) draw_figure_choice(frame);
     ViewState state = inside_state(frame.next);
     toggle(frame, "Scene, ghosted", state.scene);
     toggle(frame, "Voxels", state.voxels);
@@ -75,8 +89,7 @@ void draw_options(Frame& frame) {
     ImGui::SliderInt("##slab", &state.slab_voxels, 1, 128, "%d layers behind the row", ImGuiSliderFlags_AlwaysClamp);
     if (ImGui::IsItemActive()) frame.in_gesture = true;
     int resolution = 128;
-    if (frame.shown.inside)
-        std::visit([&](const auto& picture) { resolution = picture.resolution; }, *frame.shown.inside);
+    if (frame.shown.inside) resolution = rows_in_space(*frame.shown.inside).resolution;
     int first = state.slice_first, last = std::min(state.slice_last, resolution - 1);
     ImGui::SetNextItemWidth(width);
     if (ImGui::DragIntRange2("##slice", &first, &last, 0.5f, 0, resolution - 1, "from voxel %d", "to %d",

@@ -185,7 +185,7 @@ void ask_for_inside(Bench& bench, const Frame& frame, const Arrangement& areas) 
     }
     request.lit.pointed = frame.ui.pointed;
     if (now.selection.voxel && ray_is_current(frame))
-        request.lit.pointed.push_back(voxel_box(*frame.shown.inside, *now.selection.voxel));
+        request.lit.pointed.push_back(voxel_box(rows_in_space(*frame.shown.inside), *now.selection.voxel));
     draw(bench.inside, request);
 }
 

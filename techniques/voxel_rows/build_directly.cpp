@@ -91,4 +91,21 @@ RowArray build_directly(const Scene& scene, const BuildOptions& options, Progres
     return array;
 }
 
+std::vector<std::uint8_t> voxelize_directly(const Scene& scene, const BuildOptions& options, int direction) {
+    const RowGrid grid = make_grid(scene, options);
+    const int n = grid.resolution, half = grid.angles / 2;
+    const bool is_partner = direction % grid.angles >= half;
+    const int voxelized_as = is_partner ? direction - half : direction;
+    Marks marks(n);
+    voxelize(scene, make_shape(grid), grid.frames[static_cast<std::size_t>(voxelized_as)], marks);
+    SliceBits bits(n), bits_again(n), transposed(n);
+    std::vector<std::uint8_t> occupied(static_cast<std::size_t>(n) * n * n);
+    for (int v = 0; v < n; ++v) {
+        take_bits(marks.slices[static_cast<std::size_t>(v)], {1, 1}, bits, bits_again);
+        transpose(bits, transposed);
+        unpack_slice(is_partner ? transposed : bits, n, v, occupied);
+    }
+    return occupied;
+}
+
 }  // namespace sightlines::voxel_rows

@@ -112,39 +112,57 @@ struct Splat {
     Storing storing = Storing::replace;
 };
 
+vec3 horizontal_of(const RowGrid& grid, int theta) {
+    const double angle = theta * std::numbers::pi / grid.angles;
+    return {std::cos(angle), 0.0, std::sin(angle)};
+}
+
+/// The samples that lie in one slice.
+struct SliceOfSamples {
+    const SlicedSamples& sliced;
+    std::size_t begin, end;
+    std::uint64_t area;  ///< of all of them
+
+    SliceOfSamples(const SlicedSamples& sliced_, int v)
+        : sliced(sliced_),
+          begin(sliced.first[static_cast<std::size_t>(v)]),
+          end(sliced.first[static_cast<std::size_t>(v) + 1]),
+          area(std::accumulate(sliced.area.data() + begin, sliced.area.data() + end, std::uint64_t{0})) {}
+};
+
+/// One slice's bits along the rows of `direction` (phi below 90 degrees), and of its partner across them.
+void pack_slice(const SliceOfSamples& slice, const RowGrid& grid, int direction, vec3 horizontal, const Splat& splat,
+                SliceCounts& areas, SliceBits& along_u, SliceBits& along_w) {
+    const int n = grid.resolution;
+    const DirectionFrame& frame = grid.frames[static_cast<std::size_t>(direction)];
+    const DirectionFrame& partner = grid.frames[static_cast<std::size_t>(direction + grid.angles / 2)];
+    const Needed needed{area_needed(frame, splat.coverage, splat.cell_m),
+                        area_needed(partner, splat.coverage, splat.cell_m)};
+    const PlaneMap map = plane_map(frame, horizontal);
+    add_areas<false>(map, slice.sliced, slice.begin, slice.end, n, areas);
+    if (take_bits(areas, needed, along_u, along_w) == slice.area) return;
+    add_areas<true>(map, slice.sliced, slice.begin, slice.end, n, areas);  // a voxel overflowed: rare
+    take_bits(areas, needed, along_u, along_w);
+}
+
 /// All directions of one theta: each slice is added up, packed, and stored as rows and, transposed, as its partner's.
 /// Marks the slices that hold samples in `touched`, [N].
 void splat_theta(RowArray& array, const RowShape& shape, const Splat& splat, int theta, std::span<std::uint8_t> touched,
                  const Progress& progress) {
     const RowGrid& grid = array.grid;
-    const int n = grid.resolution, half = grid.angles / 2;
-    const double angle = theta * std::numbers::pi / grid.angles;
-    const vec3 horizontal(std::cos(angle), 0.0, std::sin(angle));
-    const int first_direction = theta * grid.angles;
+    const int n = grid.resolution, half = grid.angles / 2, first_direction = theta * grid.angles;
+    const vec3 horizontal = horizontal_of(grid, theta);
     const SlicedSamples sliced =
         slice_samples(splat.samples, shape, grid.frames[static_cast<std::size_t>(first_direction)], horizontal);
     SliceBits along_u(n), along_w(n), transposed(n);
     SliceCounts areas(n);
     for (int v = 0; v < n; ++v) {
-        const std::size_t begin = sliced.first[static_cast<std::size_t>(v)];
-        const std::size_t end = sliced.first[static_cast<std::size_t>(v) + 1];
-        if (begin == end) continue;  // stays as it was
+        const SliceOfSamples slice(sliced, v);
+        if (slice.begin == slice.end) continue;  // stays as it was
         touched[static_cast<std::size_t>(v)] = 1;
         progress.check();  // a theta takes longer than whoever cancels wants to wait
-        const auto area_in_all =
-            std::accumulate(&sliced.area[begin], &sliced.area[begin] + (end - begin), std::uint64_t{0});
-        for (int phi = 0; phi < half; ++phi) {
-            const int direction = first_direction + phi;
-            const DirectionFrame& frame = grid.frames[static_cast<std::size_t>(direction)];
-            const DirectionFrame& partner = grid.frames[static_cast<std::size_t>(direction + half)];
-            const Needed needed{area_needed(frame, splat.coverage, splat.cell_m),
-                                area_needed(partner, splat.coverage, splat.cell_m)};
-            const PlaneMap map = plane_map(frame, horizontal);
-            add_areas<false>(map, sliced, begin, end, n, areas);
-            if (take_bits(areas, needed, along_u, along_w) != area_in_all) {  // a voxel overflowed: rare
-                add_areas<true>(map, sliced, begin, end, n, areas);
-                take_bits(areas, needed, along_u, along_w);
-            }
+        for (int direction = first_direction; direction < first_direction + half; ++direction) {
+            pack_slice(slice, grid, direction, horizontal, splat, areas, along_u, along_w);
             store_slice(array, shape, direction, v, along_u, splat.storing);
             transpose(along_w, transposed);
             store_slice(array, shape, direction + half, v, transposed, splat.storing);
@@ -199,16 +217,21 @@ FragmentGrid fragment_grid(const RowGrid& grid, double samples_per_voxel) {
 
 namespace {
 
-/// Splats the scene's surface into the array. Returns the slices that it touched.
-SliceMarks splat_surface(RowArray& array, const Scene& scene, const BuildOptions& options, Storing storing,
-                         Progress& progress) {
-    const RowGrid& grid = array.grid;
+Splat make_splat(const Scene& scene, const RowGrid& grid, const BuildOptions& options, Storing storing,
+                 Progress& progress) {
     const float cell_m = fragment_cell_m(grid, options.samples_per_voxel);
     const auto inset_m = static_cast<float>(options.inset) * fragment_cell_m(grid, 1.0);
     const std::vector<Fragment> fragments =
         surface_fragments(scene, fragment_grid(grid, options.samples_per_voxel), options.threads, progress);
-    const Splat splat{surface_samples(scene, fragments, grid.bounds.centre(), inset_m, cell_m), options.coverage,
-                      cell_m, storing};
+    return {surface_samples(scene, fragments, grid.bounds.centre(), inset_m, cell_m), options.coverage, cell_m,
+            storing};
+}
+
+/// Splats the scene's surface into the array. Returns the slices that it touched.
+SliceMarks splat_surface(RowArray& array, const Scene& scene, const BuildOptions& options, Storing storing,
+                         Progress& progress) {
+    const RowGrid& grid = array.grid;
+    const Splat splat = make_splat(scene, grid, options, storing, progress);
     array.fragments += splat.samples.size();
     progress.begin("splatting fragments into all directions", grid.angles);
     const RowShape shape = make_shape(grid);
@@ -229,6 +252,29 @@ RowArray build_from_fragments(const Scene& scene, const BuildOptions& options, P
     splat_surface(array, scene, options, Storing::replace, progress);
     array.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return array;
+}
+
+std::vector<std::uint8_t> voxelize_from_fragments(const Scene& scene, const BuildOptions& options, int direction,
+                                                  Progress& progress) {
+    const RowGrid grid = make_grid(scene, options);
+    const int n = grid.resolution, half = grid.angles / 2, theta = direction / grid.angles;
+    const bool is_partner = direction % grid.angles >= half;
+    const int packed_as = is_partner ? direction - half : direction;
+    const Splat splat = make_splat(scene, grid, options, Storing::replace, progress);
+    const vec3 horizontal = horizontal_of(grid, theta);
+    const SlicedSamples sliced = slice_samples(splat.samples, make_shape(grid),
+                                               grid.frames[static_cast<std::size_t>(theta) * grid.angles], horizontal);
+    SliceBits along_u(n), along_w(n), transposed(n);
+    SliceCounts areas(n);
+    std::vector<std::uint8_t> occupied(static_cast<std::size_t>(n) * n * n);
+    for (int v = 0; v < n; ++v) {
+        const SliceOfSamples slice(sliced, v);
+        if (slice.begin == slice.end) continue;
+        pack_slice(slice, grid, packed_as, horizontal, splat, areas, along_u, along_w);
+        transpose(along_w, transposed);
+        unpack_slice(is_partner ? transposed : along_u, n, v, occupied);
+    }
+    return occupied;
 }
 
 SliceMarks splat_onto(RowArray& array, const Scene& moving, const BuildOptions& options, Progress& progress) {

@@ -86,6 +86,11 @@ FragmentGrid fragment_grid(const RowGrid& grid, double samples_per_voxel);
 /// Algorithm 6: the surface becomes fragments once; each is splatted into all rotated voxelizations.
 RowArray build_from_fragments(const Scene& scene, const BuildOptions& options, Progress& progress);
 
+/// One direction's voxelization made by itself, as the whole build of the same options makes it; unpacked as below.
+std::vector<std::uint8_t> voxelize_directly(const Scene& scene, const BuildOptions& options, int direction);
+std::vector<std::uint8_t> voxelize_from_fragments(const Scene& scene, const BuildOptions& options, int direction,
+                                                  Progress& progress);
+
 /// The voxelization of one direction, unpacked for showing: occupied[(w * N + v) * N + u] != 0.
 std::vector<std::uint8_t> unpack_voxelization(const RowArray& array, int direction);
 

@@ -151,6 +151,14 @@ void store_rows(RowArray& array, const RowShape& shape, scalar_kernel::Direction
 
 }  // namespace
 
+void unpack_slice(const SliceBits& bits, int resolution, int v, std::span<std::uint8_t> occupied) {
+    const auto n = static_cast<std::size_t>(resolution), side = static_cast<std::size_t>(bits.side);
+    for (std::size_t w = 0; w < n; ++w)
+        for (std::size_t u = 0; u < n; ++u)
+            occupied[(w * n + static_cast<std::size_t>(v)) * n + u] =
+                static_cast<std::uint8_t>(bits.words[u / 64 * side + w] >> (u % 64) & 1u);
+}
+
 void store_slice(RowArray& array, const RowShape& shape, int direction, int v, const SliceBits& bits, Storing storing) {
     const scalar_kernel::Direction steps{direction / shape.angles, direction % shape.angles};
     switch (shape.words_per_row) {

@@ -54,6 +54,9 @@ std::uint64_t take_bits(SliceCounts& counts, Needed needed, SliceBits& along_u, 
 
 void transpose(const SliceBits& bits, SliceBits& transposed);
 
+/// Writes the slice's voxels to occupied[(w * N + v) * N + u], 0 or 1.
+void unpack_slice(const SliceBits& bits, int resolution, int v, std::span<std::uint8_t> occupied);
+
 /// Whether rows take the place of those that the array holds, or their bits are set in addition.
 enum class Storing { replace, add };
 

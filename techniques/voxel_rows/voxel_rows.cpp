@@ -233,6 +233,18 @@ const Technique& technique() { return row; }
 
 const RowArray& row_array(const Structure& structure) { return built_rows(structure).array; }
 
+bool is_compressed(const ParameterValues& chosen) { return parameter_value(parameters, chosen, "compression") != 0.0; }
+
+std::vector<std::uint8_t> uncompressed_voxelization(const Scene& scene, const ParameterValues& chosen, int direction,
+                                                    int threads, Progress& progress) {
+    BuildRequest request;
+    request.parameters = chosen;
+    request.threads = threads;
+    const BuildOptions options = build_options(request);
+    if (parameter_value(parameters, chosen, "build") != 0.0) return voxelize_directly(scene, options, direction);
+    return voxelize_from_fragments(scene, options, direction, progress);
+}
+
 QueryCount count_blocked(const Structure& structure, const RenderRequest& request) {
     const BuiltRows& built = built_rows(structure);
     if (request.backend == Backend::cpu) return count_blocked_on_cpu(built.array, request);

@@ -15,6 +15,14 @@ const Technique& technique();
 /// The array inside a structure that `technique().build` made.
 const RowArray& row_array(const Structure& structure);
 
+/// Whether structures of these parameters are compressed.
+bool is_compressed(const ParameterValues& parameters);
+
+/// What the array of these parameters held in one direction before it was compressed, unpacked as by
+/// unpack_voxelization: the compressed one cannot tell.
+std::vector<std::uint8_t> uncompressed_voxelization(const Scene& scene, const ParameterValues& parameters,
+                                                    int direction, int threads, Progress& progress);
+
 /// Asks all rays of the request by its backend and counts them; no shading.
 QueryCount count_blocked(const Structure& structure, const RenderRequest& request);
 

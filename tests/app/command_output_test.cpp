@@ -190,6 +190,29 @@ TEST(FigureCommand, WritesEveryFormatIntoANewFolder) {
     EXPECT_EQ(Json::parse(run.output)["files"].size(), 2u);
 }
 
+TEST(FigureCommand, ShowsTheDictionaryOfACompressedArrayOnly) {
+    const fs::path folder = fresh_folder();
+    const ProgramRun refused = run_program(with({"figure", "dictionary", "--out", "f"}, small), folder);
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_NE(refused.errors.find("compression=on"), std::string::npos) << refused.errors;
+    const ProgramRun run = run_program(
+        with({"figure", "dictionary", "--dpi", "72", "--set", "compression=on", "--out", "f"}, small), folder);
+    if (run.exit_code == 4) GTEST_SKIP() << run.errors;
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    EXPECT_EQ(files_in(folder / "f"), (Arguments{"dictionary.png"}));
+}
+
+TEST(Render, DrawsWhatCompressionChanged) {
+    const fs::path folder = fresh_folder();
+    const ProgramRun run = run_program(with({"render", "--out", "a.png", "--compression-out", "c.png", "--report",
+                                             "r.json", "--set", "compression=on"},
+                                            small),
+                                       folder);
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    EXPECT_EQ(files_in(folder), (Arguments{"a.png", "c.png", "r.json"}));
+    EXPECT_TRUE(json_of(folder / "r.json").contains("compression_changed_percent"));
+}
+
 TEST(BenchCommand, GivesEveryContestantAndTheRatios) {
     const fs::path folder = fresh_folder();
     const ProgramRun run =

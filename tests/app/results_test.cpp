@@ -32,6 +32,24 @@ TEST(Results, RebuildNothingWhenOnlyTheLooksChange) {
     EXPECT_EQ(results.latest_picture(session), picture);
 }
 
+TEST(Results, TellWhatCompressionChanged) {
+    Results results(0, Backend::cpu);
+    Progress progress;
+    Session session = small_session();
+    session.channel = Channel::compression;
+    EXPECT_EQ(results.compression(session, progress)->value.visibility_percent, 0.0);  // nothing is compressed
+    session.parameters["voxel_rows"]["compression"] = 1.0;
+    const auto picture = results.picture(session, progress);
+    const auto exact = results.compression(session, progress);
+    EXPECT_EQ(results.picture(session, progress), picture);
+    EXPECT_EQ(results.compression(session, progress), exact);
+    session.parameters["voxel_rows"]["dictionary_rows"] = 1024.0;
+    session.parameters["voxel_rows"]["dictionary_choice"] = 0.0;
+    const auto coarse = results.compression(session, progress);
+    EXPECT_GT(coarse->value.visibility_percent, exact->value.visibility_percent);
+    EXPECT_LT(coarse->value.visibility_percent, 50.0);
+}
+
 TEST(Results, KeepTheStructureWhenALightChanges) {
     Results results(0, Backend::cpu);
     Progress progress;

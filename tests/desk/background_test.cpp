@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "app/inside.h"
+#include "app/report.h"
 #include "tests/desk/desk_testing.h"
 
 namespace sightlines {
@@ -100,6 +102,28 @@ TEST(Background, ComparesWithTheReferenceWhereTheChannelDoes) {
     const auto reference = other.reference(session, progress);
     EXPECT_EQ(shown(desk.background).picture->pixels, shown(reference->value.radiance, session.display));
     EXPECT_EQ(shown(desk.background).result, now.result);
+}
+
+TEST(Background, ShowsTheDictionaryAndWhatCompressionChanged) {
+    Desk desk;
+    Session session = small_session();
+    session.parameters["voxel_rows"]["compression"] = 1.0;
+    session.parameters["voxel_rows"]["dictionary_rows"] = 1024.0;
+    session.channel = Channel::compression;
+    want(desk.background, session, false);
+    ASSERT_TRUE(desk.complete(session));
+    Results other(0, Backend::cpu);
+    Progress progress;
+    EXPECT_EQ(shown(desk.background).picture->pixels,
+              colour_mapped(other.compression(session, progress)->value.visibility_error, 0.0f, compression_shown));
+    show_figure(session, "dictionary");
+    want(desk.background, session, false);
+    ASSERT_TRUE(desk.until(
+        [](const Shown& now) { return now.inside && std::holds_alternative<DictionaryPicture>(*now.inside); }));
+    session.parameters["voxel_rows"]["compression"] = 0.0;  // then there is none to show
+    want(desk.background, session, false);
+    ASSERT_TRUE(desk.until(
+        [](const Shown& now) { return now.inside && std::holds_alternative<VoxelRowPicture>(*now.inside); }));
 }
 
 TEST(Background, KeepsTheErrorsWhileOnlyTheSelectionChanges) {

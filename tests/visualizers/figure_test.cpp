@@ -77,20 +77,20 @@ TEST(Figure, TheSameInputGivesTheSameFile) {
 
 TEST(Figure, DotsPerInchSetTheSizeOfThePng) {
     const fs::path folder = fresh_folder("dpi");
-    VoxelRowView view;
-    write_voxel_row_figure(view, furnished_picture(), {}, {.dpi = 72.0f, .width_mm = 127.0f}, folder);
+    InsideView view;
+    write_figure(view, furnished_picture(), "voxel-row", {}, {.dpi = 72.0f, .width_mm = 127.0f}, folder);
     const ImageRgba8 small = read_png(folder / "voxel-row.png");
     EXPECT_EQ(small.size.width, 360);
-    write_voxel_row_figure(view, furnished_picture(), {}, {.dpi = 144.0f, .width_mm = 127.0f}, folder);
+    write_figure(view, furnished_picture(), "voxel-row", {}, {.dpi = 144.0f, .width_mm = 127.0f}, folder);
     EXPECT_EQ(read_png(folder / "voxel-row.png").size.width, 720);
 }
 
 TEST(Figure, APrintedFigureHasNoBackground) {
     const fs::path folder = fresh_folder("print");
-    VoxelRowView view;
+    InsideView view;
     ViewState state;
     state.theme = Theme::print;
-    write_voxel_row_figure(view, furnished_picture(), state, {.dpi = 72.0f}, folder);
+    write_figure(view, furnished_picture(), "voxel-row", state, {.dpi = 72.0f}, folder);
     const ImageRgba8 figure = read_png(folder / "voxel-row.png");
     EXPECT_EQ(figure.at(figure.size.width - 1, figure.size.height - 1).a, 0);
 }
@@ -105,10 +105,10 @@ TEST(Figure, ImpossibleSizesAreRefused) {
 }
 
 TEST(Figure, AFolderThatIsNotThereIsAnEnvironmentErrorAndLeavesNothing) {
-    VoxelRowView view;
+    InsideView view;
     const fs::path missing = fresh_folder("missing") / "deeper";
     for (const FigureFormat format : {FigureFormat::png, FigureFormat::vtk})
-        EXPECT_THROW(write_voxel_row_figure(view, furnished_picture(), {}, {.format = format}, missing),
+        EXPECT_THROW(write_figure(view, furnished_picture(), "voxel-row", {}, {.format = format}, missing),
                      EnvironmentError);
     EXPECT_FALSE(fs::exists(missing));
 }
@@ -123,9 +123,9 @@ vtkSmartPointer<vtkPolyData> read_piece(const fs::path& file) {
 TEST(VtkExport, TheFilesReadBackWithEveryFaceBitAndTriangle) {
     const fs::path folder = fresh_folder("vtk");
     const VoxelRowPicture picture = furnished_picture();
-    VoxelRowView view;
+    InsideView view;
     const std::vector<fs::path> files =
-        write_voxel_row_figure(view, picture, {}, {.format = FigureFormat::vtk}, folder);
+        write_figure(view, picture, "voxel-row", {}, {.format = FigureFormat::vtk}, folder);
     ASSERT_EQ(files.size(), 5u);
     EXPECT_EQ(files.front().filename(), "voxel-row.vtm");
     for (const fs::path& file : files) EXPECT_TRUE(fs::is_regular_file(file)) << file;

@@ -56,6 +56,19 @@ std::vector<std::uint32_t> splat_naively(const RowArray& like, std::span<const F
     return words;
 }
 
+TEST(VoxelRowsBuild, VoxelisesOneDirectionByItselfAsTheWholeBuildDoes) {
+    const Scene scene = testing::scattered_triangles(60, 1);
+    BuildOptions options = small_build();
+    options.angle_step_deg = 30.0;
+    Progress progress;
+    const RowArray whole = build_from_fragments(scene, options, progress);
+    const RowArray direct = build_directly(scene, options, progress);
+    for (int direction = 0; direction < whole.grid.angles * whole.grid.angles; ++direction) {
+        EXPECT_EQ(voxelize_from_fragments(scene, options, direction, progress), unpack_voxelization(whole, direction));
+        EXPECT_EQ(voxelize_directly(scene, options, direction), unpack_voxelization(direct, direction));
+    }
+}
+
 TEST(VoxelRowsBuild, SplatsEachFragmentIntoItsVoxelOfEveryDirection) {
     const Scene scene = testing::scattered_triangles(60, 1);
     for (const int resolution : {32, 48, 64, 100}) {
