@@ -2,6 +2,7 @@
 
 #include "voxel_rows.h"
 #include "voxel_rows_lighting_data.h"
+#include "voxel_rows_lights.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -10,8 +11,6 @@ layout(constant_id = 0) const int resolution = 128;
 layout(constant_id = 1) const int words_per_row = 4;
 layout(constant_id = 2) const int subrays = 1;
 layout(constant_id = 3) const int clip = 0;
-layout(constant_id = 4) const bool shade = true;
-layout(constant_id = 5) const uint kind_of_all_lights = 3u;   // 3: mixed
 layout(constant_id = 6) const int index_bits = 0;
 layout(constant_id = 7) const int index_start = 0;
 
@@ -20,18 +19,6 @@ layout(push_constant, scalar) uniform Push { LightingJob job; };
 PixelSums sums_so_far(uint pixel) {
     if (job.first_light != 0u) return job.sums.v[pixel];
     return PixelSums(vec3(0.0f), 0u, 0u);
-}
-
-/// The light that invocation k of the subgroup holds. Handing on what each has read once is cheaper than reading again.
-LightRecord light_of(LightRecord held, uint k) {
-    LightRecord light;
-    light.position = subgroupBroadcast(held.position, k);
-    light.kind = kind_of_all_lights < 3u ? kind_of_all_lights : subgroupBroadcast(held.kind, k);
-    light.intensity = subgroupBroadcast(held.intensity, k);
-    light.cosine_outer = subgroupBroadcast(held.cosine_outer, k);
-    light.direction = subgroupBroadcast(held.direction, k);
-    light.cosine_inner = subgroupBroadcast(held.cosine_inner, k);
-    return light;
 }
 
 void main() {

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/bench_first_hits.h"
 #include "app/bench_output.h"
 #include "app/bench_shadow_rays.h"
 #include "app/bench_tables.h"
@@ -47,21 +48,36 @@ struct BenchOutput {
     std::vector<std::string> notes;
 };
 
+/// Writes what was measured into the folder, where one is asked for.
+BenchOutput written(const BenchFlags& flags, const std::string& name, const auto& bench) {
+    const TextTable table = table_from_bench(bench);
+    const Json json = json_from_bench(bench);
+    if (!flags.out.empty()) {
+        make_folder(flags.out);
+        write_file(flags.out / (name + ".csv"), csv_from(table));
+        write_file(flags.out / (name + ".md"), heading_from_bench(bench) + "\n" + markdown_from(table));
+        write_file(flags.out / (name + ".json"), json_text(json));
+    }
+    return {heading_from_bench(bench) + "\n" + text_from(table), json, {}};
+}
+
 BenchOutput run_shadow_rays(const BenchFlags& flags, Progress& progress) {
     const Session session = bench_session(flags);
     const int repetitions = repetitions_of(flags, 3, 7);
     Results results(thread_flag(flags.common), command_backend(session));
     const ShadowRayBench bench = bench_shadow_rays(session, repetitions, results, progress);
     progress.check();
-    const TextTable table = table_from_bench(bench);
-    const Json json = json_from_bench(bench);
-    if (!flags.out.empty()) {
-        make_folder(flags.out);
-        write_file(flags.out / "shadow-rays.csv", csv_from(table));
-        write_file(flags.out / "shadow-rays.md", heading_from_bench(bench) + "\n" + markdown_from(table));
-        write_file(flags.out / "shadow-rays.json", json_text(json));
-    }
-    return {heading_from_bench(bench) + "\n" + text_from(table), json, bench.notes};
+    BenchOutput output = written(flags, "shadow-rays", bench);
+    output.notes = bench.notes;
+    return output;
+}
+
+BenchOutput run_first_hits(const BenchFlags& flags, Progress& progress) {
+    Session session = bench_session(flags);
+    session.backend = BackendChoice::cpu;
+    if (session.technique != "voxel_rows") throw InputError("--technique", "", "has no first hits", "leave it out");
+    Results results(thread_flag(flags.common), Backend::cpu);
+    return written(flags, "first-hits", bench_first_hits(session, results, progress));
 }
 
 /// What the papers' tables are measured with where the flags leave it open.
@@ -105,7 +121,9 @@ CommandOutput run_bench(const BenchFlags& flags, Progress& progress) {
     std::vector<BenchOutput> outputs;
     if (flags.table == "all") {
         outputs = run_tables(flags, paper_tables(), progress);
-        outputs.insert(outputs.begin(), run_shadow_rays(flags, progress));
+        outputs.insert(outputs.begin(), {run_shadow_rays(flags, progress), run_first_hits(flags, progress)});
+    } else if (flags.table == "first-hits") {
+        outputs.push_back(run_first_hits(flags, progress));
     } else if (flags.table == "shadow-rays") {
         outputs.push_back(run_shadow_rays(flags, progress));
     } else {
@@ -125,7 +143,7 @@ CommandOutput run_bench(const BenchFlags& flags, Progress& progress) {
 
 /// CLI11's form: what is wrong with the name, empty where nothing is.
 std::string wrong_table(const std::string& name) {
-    std::vector<std::string> names{"shadow-rays", "all"};
+    std::vector<std::string> names{"shadow-rays", "first-hits", "all"};
     for (const PaperTable& table : paper_tables()) names.emplace_back(table.name);
     if (std::ranges::find(names, name) != names.end()) return "";
     const std::string near = nearest_name(name, names);
@@ -134,7 +152,9 @@ std::string wrong_table(const std::string& name) {
 
 /// One line for each table.
 std::string listed_tables() {
-    std::string text = "Tables:\n  shadow-rays         voxel rows on both backends against Embree in every variant\n";
+    std::string text =
+        "Tables:\n  shadow-rays         voxel rows on both backends against Embree in every variant\n"
+        "  first-hits          where rays hit first by voxel rows, against Embree\n";
     for (const PaperTable& table : paper_tables()) {
         const std::string name(table.name);
         text +=

@@ -115,6 +115,7 @@ SurfaceBuffer visible_surfaces(const Scene& scene, const EmbreeScene& embree, co
                                int threads, Progress& progress) {
     const std::size_t pixels = size.pixels();
     SurfaceBuffer surfaces{size,
+                           camera,
                            std::vector<vec3>(pixels, vec3(0.0f)),
                            std::vector<vec3>(pixels, vec3(0.0f)),
                            std::vector<vec3>(pixels, vec3(0.0f)),

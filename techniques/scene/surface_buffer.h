@@ -15,6 +15,7 @@ constexpr std::uint32_t no_triangle = 0xffffffffu;
 /// Where triangle[p] == no_triangle the camera sees the background and the rest is zero.
 struct SurfaceBuffer {
     ImageSize size{0, 0};
+    Camera camera;                        ///< that sees it
     std::vector<vec3> position;           ///< [P] m, world
     std::vector<vec3> normal;             ///< [P] unit geometric normal, turned towards the camera
     std::vector<vec3> shading_normal;     ///< [P] unit interpolated normal, on the same side as `normal`

@@ -7,10 +7,6 @@
 #include <chrono>
 #include <mutex>
 
-#ifdef __BMI2__
-#include <immintrin.h>
-#endif
-
 #include "shaders/wide.h"  // first: makes the kernels below wide
 
 #include "shaders/voxel_rows.h"
@@ -18,6 +14,8 @@
 #include "techniques/pixel_groups.h"
 #include "techniques/rays/light_records.h"
 #include "techniques/refinement.h"
+#include "techniques/voxel_rows/cpu_objects.h"
+#include "techniques/voxel_rows/packed_bits.h"
 #include "techniques/voxel_rows/query.h"
 #include "techniques/voxel_rows/row_bits.h"
 
@@ -74,8 +72,10 @@ struct TileWork {
     RowShape query;
     std::span<const LightRecord> lights;
     const PixelGroups& pixels;
-    Verdicts* verdicts;        ///< may be null
-    const Progress* progress;  ///< may be null
+    Verdicts* verdicts;          ///< may be null
+    const Progress* progress;    ///< may be null
+    const ObjectQuery& objects;  ///< asked after the array
+    PixelBounds bounds;          ///< empty without objects
 };
 
 HWY_INLINE Vec3 load_three(const std::vector<float> (&axes)[3], std::size_t start) {
@@ -183,18 +183,6 @@ HWY_INLINE void look_up_indices(const TileWork& work, const RowShape& query, Bat
     }
 }
 
-/// The lowest bits of `packed` at the places of the mask's set bits.
-HWY_INLINE std::uint32_t deposit_bits(std::uint32_t packed, std::uint32_t mask) {
-#ifdef __BMI2__
-    return _pdep_u32(packed, mask);
-#else
-    std::uint32_t spread = 0;
-    for (; mask != 0; mask &= mask - 1, packed >>= 1u)
-        if (packed & 1u) spread |= mask & (~mask + 1u);
-    return spread;
-#endif
-}
-
 HWY_INLINE void add(std::vector<int>& sums, std::size_t start, Mask mask) {
     const wide::IntTag tag;
     const auto ones = wide::select(mask, wide::splat(1), wide::splat(0));
@@ -217,6 +205,13 @@ HWY_INLINE void look(const TileWork& work, const RowShape& query, const Batch& b
         if (query.subrays == 2) in_the_way = in_the_way || wide::span_is_blocked(query, work.rows, rays.spans[1]);
         blocked[k] = wide::bits_of(in_the_way);
     }
+}
+
+/// Asks the objects for the batch's rays that are not blocked yet.
+void ask_objects_of(const TileWork& work, const Batch& batch, std::array<std::uint32_t, batch_vectors + 2>& blocked) {
+    const BatchOfRays rays{work.pixels, work.bounds, batch.first / batch_vectors, batch.first,
+                           std::span(batch.asked).first(batch.count)};
+    ask_objects(work.objects, rays, work.lights[batch.light], blocked);
 }
 
 /// Adds the batch's answers to the sums of its pixels.
@@ -284,6 +279,7 @@ void ask_tile(const TileWork& work, TileSums& sums) {
         if constexpr (index_bits != 0) look_up_indices(work, query, batches[(step + stages - 1) % stages]);
         const Batch& oldest = batches[(step + 1) % stages];
         look(work, query, oldest, blocked);
+        if (!work.objects.instances.empty() && oldest.rays != 0) ask_objects_of(work, oldest, blocked);
         add_answers<shade>(work, oldest, blocked, sums);
     }
 }
@@ -321,8 +317,17 @@ std::vector<PixelRect> tiles_of(ImageSize size) {
 }
 
 TileWork tile_work(const RowArray& array, const RowShape& query, std::span<const LightRecord> lights,
-                   const PixelGroups& pixels, Verdicts* verdicts, const Progress* progress) {
-    return {{array.grid.frames.data()}, {array.words.words.data()}, query, lights, pixels, verdicts, progress};
+                   const PixelGroups& pixels, Verdicts* verdicts, const Progress* progress,
+                   const ObjectQuery& objects) {
+    return {{array.grid.frames.data()},
+            {array.words.words.data()},
+            query,
+            lights,
+            pixels,
+            verdicts,
+            progress,
+            objects,
+            objects.instances.empty() ? PixelBounds() : bounds_of_pixels(pixels, batch_vectors)};
 }
 
 }  // namespace
@@ -350,8 +355,9 @@ void are_blocked(const RowArray& array, const RowShape& query, std::span<const S
     }
 }
 
-QueryCount count_blocked_on_cpu(const RowArray& array, const RenderRequest& request) {
+QueryCount count_blocked_on_cpu(const RowArray& array, const RenderRequest& request, const Objects& objects) {
     const RowShape query = make_query(array, request.parameters, request.lights);
+    const ObjectQuery moving = make_object_query(objects, request.parameters, query.reach_m);
     const std::vector<LightRecord> lights = light_records(request.lights);
     const std::vector<PixelRect> tiles = tiles_of(request.surfaces->size);
     std::vector<QueryCount> counts(tiles.size());
@@ -359,7 +365,7 @@ QueryCount count_blocked_on_cpu(const RowArray& array, const RenderRequest& requ
     parallel_for(static_cast<std::int64_t>(tiles.size()), request.threads, [&](std::int64_t tile) {
         const PixelGroups pixels = group_pixels(*request.surfaces, tiles[static_cast<std::size_t>(tile)], 1, 0);
         TileSums sums(pixels.pixel.size(), false);
-        ask_tile<false>(tile_work(array, query, lights, pixels, nullptr, nullptr), sums);
+        ask_tile<false>(tile_work(array, query, lights, pixels, nullptr, nullptr, moving), sums);
         QueryCount& count = counts[static_cast<std::size_t>(tile)];
         for (const int asked : sums.asked) count.rays += static_cast<std::uint64_t>(asked);
         for (const int blocked : sums.blocked) count.blocked += static_cast<std::uint64_t>(blocked);
@@ -390,9 +396,11 @@ void resolve(const PixelGroups& pixels, const TileSums& sums, const SurfaceBuffe
 
 }  // namespace
 
-RenderResult render_on_cpu(const RowArray& array, const RenderRequest& request, Progress& progress) {
+RenderResult render_on_cpu(const RowArray& array, const RenderRequest& request, Progress& progress,
+                           const Objects& objects) {
     const SurfaceBuffer& surfaces = *request.surfaces;
     const RowShape query = make_query(array, request.parameters, request.lights);
+    const ObjectQuery moving = make_object_query(objects, request.parameters, query.reach_m);
     const std::vector<LightRecord> lights = light_records(request.lights);
     RenderResult result = blank_result(request);
     std::vector<PixelRect> tiles = tiles_of(surfaces.size);
@@ -407,7 +415,7 @@ RenderResult render_on_cpu(const RowArray& array, const RenderRequest& request, 
             const PixelGroups pixels = group_pixels(surfaces, tile, pass.stride, pass.skip_stride);
             TileSums sums(pixels.pixel.size(), true);
             Verdicts* verdicts = request.keep_verdicts ? &result.verdicts : nullptr;
-            ask_tile<true>(tile_work(array, query, lights, pixels, verdicts, &progress), sums);
+            ask_tile<true>(tile_work(array, query, lights, pixels, verdicts, &progress, moving), sums);
             {
                 const std::lock_guard lock(region_mutex);
                 resolve(pixels, sums, surfaces, result);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shaders/voxel_row_objects.h"
 #include "techniques/voxel_rows/voxel_rows.h"
 
 namespace sightlines::voxel_rows {
@@ -35,6 +36,11 @@ bool is_blocked(const RowArray& array, const RowShape& query, const Segment& seg
     const vec3 origin = scalar_kernel::ray_origin(query, segment.origin, normal);
     return scalar_kernel::is_blocked(query, {array.grid.frames.data()}, {array.words.words.data()}, origin,
                                      segment.target);
+}
+
+bool is_blocked(std::span<const ObjectInstance> objects, const Segment& segment, vec3 normal) {
+    return scalar_kernel::objects_block({objects.data()}, static_cast<int>(objects.size()), segment.origin, normal,
+                                        segment.target);
 }
 
 }  // namespace sightlines::voxel_rows

@@ -5,6 +5,7 @@
 
 #include "techniques/rays/reference.h"
 #include "techniques/technique.h"
+#include "techniques/voxel_rows/object_rows.h"
 #include "techniques/voxel_rows/row_array.h"
 
 namespace sightlines::voxel_rows {
@@ -15,14 +16,19 @@ RowShape make_query(const RowArray& array, const ParameterValues& parameters, st
 /// Algorithm 3 by the scalar kernel. The segment starts on the surface with this normal; the normal offset is applied.
 bool is_blocked(const RowArray& array, const RowShape& query, const Segment& segment, vec3 normal);
 
-/// The same for many rays at once by the wide kernel. answers[k] is 0 or 1. Sizes are equal.
+/// Algorithm 5, lines 4 to 10, by the scalar kernel: whether any of the objects is in the way.
+bool is_blocked(std::span<const ObjectInstance> objects, const Segment& segment, vec3 normal);
+
+/// Algorithm 3 for many rays at once by the wide kernel. answers[k] is 0 or 1. Sizes are
+/// equal.
 void are_blocked(const RowArray& array, const RowShape& query, std::span<const Segment> segments,
                  std::span<const vec3> normals, std::span<std::uint8_t> answers);
 
-/// Algorithm 4 on the CPU, by the wide kernel.
-RenderResult render_on_cpu(const RowArray& array, const RenderRequest& request, Progress& progress);
+/// Algorithm 4 on the CPU, by the wide kernel; where there are objects, each ray by Algorithm 5.
+RenderResult render_on_cpu(const RowArray& array, const RenderRequest& request, Progress& progress,
+                           const Objects& objects = {});
 
 /// Only asks and counts, as the benchmark does.
-QueryCount count_blocked_on_cpu(const RowArray& array, const RenderRequest& request);
+QueryCount count_blocked_on_cpu(const RowArray& array, const RenderRequest& request, const Objects& objects = {});
 
 }  // namespace sightlines::voxel_rows

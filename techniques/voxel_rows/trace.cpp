@@ -1,9 +1,11 @@
 // One ray through the recording compilation of the kernel.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "shaders/recording.h"  // first: makes the kernels below record
 
+#include "shaders/voxel_row_objects.h"
 #include "shaders/voxel_rows.h"
 #include "techniques/rays/light_records.h"
 #include "techniques/voxel_rows/query.h"
@@ -38,6 +40,31 @@ TraceStep* find_step(std::vector<TraceStep>& steps, std::string_view paper) {
     return step == steps.end() ? nullptr : &*step;
 }
 
+std::int64_t whole_value(const TraceStep& step, std::string_view name) {
+    const auto value = std::ranges::find(step.values, name, &TraceValue::name);
+    return std::get<std::int64_t>(value->value);
+}
+
+bool holds(const TraceStep& step, std::string_view name) {
+    return std::ranges::find(step.values, name, &TraceValue::name) != step.values.end();
+}
+
+/// Boxes of the rows and of the voxels kept of them. `world` is that of the voxels in the frame of the steps.
+void add_rows(std::span<TraceStep> steps, const mat4& world, int resolution) {
+    int v = 0, w = 0;
+    for (TraceStep& step : steps) {
+        // Line 3 comes twice where there is a dictionary; only its first step knows where the row lies.
+        if (step.paper == "Algorithm 3, line 3" && holds(step, "v")) {
+            v = static_cast<int>(whole_value(step, "v"));
+            w = static_cast<int>(whole_value(step, "w"));
+            step.geometry.push_back(row_box("row", world, v, w, 0, resolution - 1));
+        }
+        if (step.paper == "Algorithm 3, line 4")
+            step.geometry.push_back(row_box("extent", world, v, w, static_cast<int>(whole_value(step, "span.first")),
+                                            static_cast<int>(whole_value(step, "span.last"))));
+    }
+}
+
 /// What the figures of the steps mean in space: the kernel knows indices, the frame says where they lie.
 void add_geometry(std::vector<TraceStep>& steps, const RowArray& array, const ServedRay& served) {
     const mat4 world = world_from_voxels(array.grid, served.direction);
@@ -53,20 +80,58 @@ void add_geometry(std::vector<TraceStep>& steps, const RowArray& array, const Se
              TraceShape::box,
              {row_corner(world, 0.0f, 0.0f, 0.0f), vec3(world[0]) * n, vec3(world[1]) * n, vec3(world[2]) * n}});
     }
-    for (TraceStep& step : steps) {
-        const auto whole = [](const TraceStep& from, std::string_view name) {
-            const auto value = std::ranges::find(from.values, name, &TraceValue::name);
-            return static_cast<int>(std::get<std::int64_t>(value->value));
-        };
-        // Line 3 comes twice where there is a dictionary; only its first step knows where the row lies.
-        if (step.paper == "Algorithm 3, line 3" &&
-            std::ranges::find(step.values, "v", &TraceValue::name) != step.values.end())
-            step.geometry.push_back(
-                row_box("row", world, whole(step, "v"), whole(step, "w"), 0, array.grid.resolution - 1));
-        if (step.paper == "Algorithm 3, line 4")
-            step.geometry.push_back(
-                row_box("extent", world, served.v, served.w, whole(step, "span.first"), whole(step, "span.last")));
+    add_rows(steps, world, array.grid.resolution);
+}
+
+/// The geometry of an object's steps, which its kernel sees in the object's own frame, where the world has it.
+void place_geometry(std::span<TraceStep> steps, const RowArray& type, const mat4& world_from_object) {
+    const auto direction = std::ranges::find(steps, "Algorithm 3, line 1", &TraceStep::paper);
+    if (direction != steps.end()) {
+        const auto theta = whole_value(*direction, "theta_step"), phi = whole_value(*direction, "phi_step");
+        add_rows(steps, world_from_voxels(type.grid, static_cast<int>(theta * type.grid.angles + phi)),
+                 type.grid.resolution);
     }
+    for (TraceStep& step : steps) {
+        for (TraceGeometry& shape : step.geometry) {
+            for (std::size_t k = 0; k < shape.points.size(); ++k) {
+                // A box is a corner and three edges.
+                const float is_place = shape.shape == TraceShape::box && k > 0 ? 0.0f : 1.0f;
+                shape.points[k] = vec3(world_from_object * vec4(shape.points[k], is_place));
+            }
+        }
+    }
+}
+
+/// The bounds of each object on the step that asks whether the ray meets them.
+TraceGeometry bounds_of(const RowArray& type) {
+    const Box3& box = type.grid.bounds;
+    const vec3 size = box.size();
+    return {"object",
+            TraceShape::box,
+            {box.lowest, vec3(size.x, 0.0f, 0.0f), vec3(0.0f, size.y, 0.0f), vec3(0.0f, 0.0f, size.z)}};
+}
+
+/// Algorithm 5 from line 4 on, after the steps of what stands still.
+void add_objects(Trace& trace, const TraceRequest& request, const Objects& objects) {
+    const std::vector<ObjectInstance> instances = object_instances(objects, request.parameters);
+    std::vector<TraceStep> steps;
+    {
+        kernel::Recording recording;
+        trace.blocked = kernel::objects_block({instances.data()}, static_cast<int>(instances.size()), trace.ray.origin,
+                                              request.normal, trace.ray.target);
+        steps = std::move(recording.steps);
+    }
+    const auto begins = [](const TraceStep& step) { return step.paper == "Algorithm 5, line 4"; };
+    for (auto first = steps.begin(); first != steps.end();) {
+        const auto next = std::find_if(first + 1, steps.end(), begins);
+        const PlacedObject& placed = objects.placed[static_cast<std::size_t>(whole_value(*first, "instance"))];
+        const RowArray& type = objects.types[placed.type];
+        const auto met = std::ranges::find(first, next, "Algorithm 5, line 6", &TraceStep::paper);
+        if (met != next) met->geometry.push_back(bounds_of(type));
+        place_geometry({first, next}, type, placed.world_from_object);
+        first = next;
+    }
+    std::ranges::move(steps, std::back_inserter(trace.steps));
 }
 
 }  // namespace
@@ -103,7 +168,7 @@ ServedRay serve(const RowArray& array, const TraceRequest& request) {
     return served;
 }
 
-Trace trace(const RowArray& array, const TraceRequest& request) {
+Trace trace(const RowArray& array, const TraceRequest& request, const Objects& objects) {
     const RowShape query = make_query(array, request.parameters, std::span(&request.light, 1));
     Trace trace;
     trace.ray = asked_segment(query, request);
@@ -115,6 +180,7 @@ Trace trace(const RowArray& array, const TraceRequest& request) {
         trace.steps = std::move(recording.steps);
     }
     add_geometry(trace.steps, array, serve(array, request));
+    if (!trace.blocked && !objects.empty()) add_objects(trace, request, objects);
     return trace;
 }
 

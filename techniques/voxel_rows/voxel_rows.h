@@ -6,6 +6,7 @@
 
 #include "techniques/rays/reference.h"
 #include "techniques/technique.h"
+#include "techniques/voxel_rows/object_rows.h"
 #include "techniques/voxel_rows/row_array.h"
 
 namespace sightlines::voxel_rows {
@@ -23,6 +24,9 @@ bool is_compressed(const ParameterValues& parameters);
 std::vector<std::uint8_t> uncompressed_voxelization(const Scene& scene, const ParameterValues& parameters,
                                                     int direction, int threads, Progress& progress);
 
+/// The objects that are asked beside the array (Algorithm 5); none where the array holds the whole scene.
+Objects objects(const Structure& structure);
+
 /// Asks all rays of the request by its backend and counts them; no shading.
 QueryCount count_blocked(const Structure& structure, const RenderRequest& request);
 
@@ -38,8 +42,9 @@ struct ServedRay {
     std::vector<bool> bits;  ///< [N] of the row
 };
 
-/// The ray of the request as the kernel serves it, recorded step by step.
-Trace trace(const RowArray& array, const TraceRequest& request);
+/// The ray of the request as the kernel serves it, recorded step by step: by the array, then by the objects until one
+/// is in the way.
+Trace trace(const RowArray& array, const TraceRequest& request, const Objects& objects = {});
 
 ServedRay serve(const RowArray& array, const TraceRequest& request);
 

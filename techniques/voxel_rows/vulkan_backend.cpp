@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <numbers>
+#include <optional>
 
 #include "shaders/spirv.h"
 #include "shaders/voxel_rows_lighting_data.h"
@@ -92,6 +93,7 @@ struct TileAsker {
     compute::Buffer lights{};
     compute::Buffer surfaces{}, sums{}, verdicts{};  ///< of one tile, mapped
     LightingJob job{};
+    std::optional<ObjectAsker> objects{};  ///< asked after the array
     std::uint32_t light_count = 0;
     double pairs_per_second = 2.0e7;  ///< of the last dispatch; at first a guess low enough for any device
 
@@ -104,24 +106,43 @@ compute::Buffer host_buffer(const VulkanRows& rows, std::uint64_t bytes) {
     return compute::make_buffer(rows.device, std::max<std::uint64_t>(bytes, 16), compute::MemoryPlace::host);
 }
 
+std::size_t most_pixels_of_a_tile(const VulkanRows& rows, const RenderRequest& request) {
+    std::size_t most_pixels = 0;
+    for (const PixelRect& tile : tiles_of(request.surfaces->size, rows.device->info.kind))
+        most_pixels =
+            std::max(most_pixels, static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
+    return (most_pixels + workgroup - 1) / workgroup * workgroup;
+}
+
+/// Lets the objects be asked too: then the array leaves verdicts, and the objects' pipeline shades.
+void add_objects(TileAsker& asker, const ObjectsOnDevice& objects, const RenderRequest& request, bool shade,
+                 std::uint32_t kind_of_all_lights, const Progress& progress) {
+    asker.objects =
+        make_object_asker(objects, request.parameters, shade, kind_of_all_lights, asker.job.query.reach_m, progress);
+    ObjectLightingJob& job = asker.objects->job;
+    job.lights = asker.job.lights;
+    job.surfaces = asker.job.surfaces;
+    job.sums = asker.job.sums;
+    job.verdicts = asker.job.verdicts;
+    job.words_per_pixel = asker.job.words_per_pixel;
+}
+
 TileAsker make_asker(const VulkanRows& rows, const RowArray& array, const RenderRequest& request, bool shade,
-                     const Progress& progress) {
+                     const Progress& progress, const ObjectsOnDevice& objects) {
     const RowShape query = make_query(array, request.parameters, request.lights);
     const std::vector<LightRecord> lights = light_records(request.lights);
-    const PipelineKey key{query.subrays, query.clip_to_bounds, shade ? 1u : 0u, kind_of_all(lights)};
+    const bool array_shades = shade && objects.empty();
+    const PipelineKey key{query.subrays, query.clip_to_bounds, array_shades ? 1u : 0u, kind_of_all(lights)};
     TileAsker asker{rows, pipeline_for(rows, key)};
     if (rows.as_texels) {
         const std::array<compute::TexelSource, 2> sources{
             {{&rows.frames, VK_FORMAT_R32G32B32A32_SFLOAT}, {&rows.rows, VK_FORMAT_R32G32B32A32_UINT}}};
         asker.texels = compute::bind_texels(asker.pipeline, sources);
     }
-    std::size_t most_pixels = 0;
-    for (const PixelRect& tile : tiles_of(request.surfaces->size, rows.device->info.kind))
-        most_pixels =
-            std::max(most_pixels, static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
-    most_pixels = (most_pixels + workgroup - 1) / workgroup * workgroup;
+    const std::size_t most_pixels = most_pixels_of_a_tile(rows, request);
     asker.light_count = static_cast<std::uint32_t>(lights.size());
-    const std::uint32_t words_per_pixel = request.keep_verdicts && shade ? (asker.light_count + 31) / 32 : 0;
+    const bool verdicts = (request.keep_verdicts && shade) || !objects.empty();
+    const std::uint32_t words_per_pixel = verdicts ? (asker.light_count + 31) / 32 : 0;
     asker.lights = compute::make_buffer(rows.device, std::max<std::uint64_t>(lights.size() * sizeof(LightRecord), 16),
                                         compute::MemoryPlace::device);
     compute::upload(asker.lights, std::as_bytes(std::span(lights)), progress);
@@ -138,6 +159,7 @@ TileAsker make_asker(const VulkanRows& rows, const RowArray& array, const Render
                  asker.verdicts.address,
                  0,
                  words_per_pixel};
+    if (!objects.empty()) add_objects(asker, objects, request, shade, key.kind_of_all_lights, progress);
     return asker;
 }
 
@@ -167,9 +189,10 @@ void ask_tile(TileAsker& asker, const PixelGroups& pixels, const Progress& progr
         const double fitting = asker.pairs_per_second * longest_dispatch_seconds / count;
         const auto step = static_cast<std::uint32_t>(std::clamp(fitting, 1.0, 1.0e6)) / light_step * light_step;
         asker.job.end_light = std::min(asker.job.first_light + std::max(step, light_step), asker.light_count);
-        const double seconds =
-            compute::dispatch(asker.pipeline, std::as_bytes(std::span(&asker.job, 1)), {count / workgroup, 1, 1},
-                              asker.rows.as_texels ? &asker.texels : nullptr);
+        double seconds = compute::dispatch(asker.pipeline, std::as_bytes(std::span(&asker.job, 1)),
+                                           {count / workgroup, 1, 1}, asker.rows.as_texels ? &asker.texels : nullptr);
+        if (asker.objects)
+            seconds += ask_objects(*asker.objects, asker.job.first_light, asker.job.end_light, count / workgroup);
         const double pairs = static_cast<double>(count) * (asker.job.end_light - asker.job.first_light);
         asker.pairs_per_second = pairs / std::max(seconds, 1.0e-6);
         asker.job.first_light = asker.job.end_light;
@@ -180,7 +203,7 @@ void ask_tile(TileAsker& asker, const PixelGroups& pixels, const Progress& progr
 void resolve(const TileAsker& asker, const PixelGroups& pixels, const SurfaceBuffer& surfaces, RenderResult& result) {
     const std::span<const PixelSums> sums = asker.tile_sums();
     const auto* verdicts = reinterpret_cast<const std::uint32_t*>(asker.verdicts.mapped.data());
-    const std::size_t words = asker.job.words_per_pixel;
+    const std::size_t words = result.verdicts.words.empty() ? 0 : asker.job.words_per_pixel;
     for (std::size_t k = 0; k < pixels.pixel.size(); ++k) {
         const std::size_t pixel = pixels.pixel[k];
         if (pixels.pixel[k] == no_triangle) continue;
@@ -215,7 +238,7 @@ std::shared_ptr<const VulkanRows> give_to_vulkan(const RowArray& array, Progress
 }
 
 RenderResult render_on_vulkan(const VulkanRows& rows, const RowArray& array, const RenderRequest& request,
-                              Progress& progress) {
+                              Progress& progress, const ObjectsOnDevice& objects) {
     const SurfaceBuffer& surfaces = *request.surfaces;
     RenderResult result = blank_result(request);
     std::vector<PixelRect> tiles = tiles_of(surfaces.size, rows.device->info.kind);
@@ -223,7 +246,7 @@ RenderResult render_on_vulkan(const VulkanRows& rows, const RowArray& array, con
     const std::vector<RefinementPass> passes = refinement_passes(static_cast<bool>(request.on_region));
     progress.begin("asking shadow rays", static_cast<std::int64_t>(tiles.size() * passes.size()));
     const auto start = std::chrono::steady_clock::now();
-    TileAsker asker = make_asker(rows, array, request, true, progress);
+    TileAsker asker = make_asker(rows, array, request, true, progress, objects);
     for (const RefinementPass& pass : passes) {
         for (const PixelRect& tile : tiles) {
             const PixelGroups pixels = group_pixels(surfaces, tile, pass.stride, pass.skip_stride);
@@ -244,10 +267,11 @@ RenderResult render_on_vulkan(const VulkanRows& rows, const RowArray& array, con
     return result;
 }
 
-QueryCount count_blocked_on_vulkan(const VulkanRows& rows, const RowArray& array, const RenderRequest& request) {
+QueryCount count_blocked_on_vulkan(const VulkanRows& rows, const RowArray& array, const RenderRequest& request,
+                                   const ObjectsOnDevice& objects) {
     const auto start = std::chrono::steady_clock::now();
     const Progress progress;
-    TileAsker asker = make_asker(rows, array, request, false, progress);
+    TileAsker asker = make_asker(rows, array, request, false, progress, objects);
     QueryCount total;
     for (const PixelRect& tile : tiles_of(request.surfaces->size, rows.device->info.kind)) {
         const PixelGroups pixels = group_pixels(*request.surfaces, tile, 1, 0);

@@ -6,6 +6,7 @@
 #include "techniques/rays/reference.h"
 #include "techniques/technique.h"
 #include "techniques/voxel_rows/row_array.h"
+#include "techniques/voxel_rows/vulkan_objects.h"
 
 namespace sightlines::voxel_rows {
 
@@ -18,9 +19,10 @@ std::shared_ptr<const VulkanRows> give_to_vulkan(const RowArray& array, Progress
 
 /// As render_on_cpu.
 RenderResult render_on_vulkan(const VulkanRows& rows, const RowArray& array, const RenderRequest& request,
-                              Progress& progress);
+                              Progress& progress, const ObjectsOnDevice& objects = {});
 
 /// As count_blocked_on_cpu.
-QueryCount count_blocked_on_vulkan(const VulkanRows& rows, const RowArray& array, const RenderRequest& request);
+QueryCount count_blocked_on_vulkan(const VulkanRows& rows, const RowArray& array, const RenderRequest& request,
+                                   const ObjectsOnDevice& objects = {});
 
 }  // namespace sightlines::voxel_rows

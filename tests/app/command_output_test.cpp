@@ -213,6 +213,18 @@ TEST(Render, DrawsWhatCompressionChanged) {
     EXPECT_TRUE(json_of(folder / "r.json").contains("compression_changed_percent"));
 }
 
+TEST(BenchCommand, GivesTheErrorsOfFirstHits) {
+    const fs::path folder = fresh_folder();
+    const ProgramRun run = run_program(with({"bench", "first-hits", "--json", "--out", "b"}, small), folder);
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    EXPECT_EQ(files_in(folder / "b"), (Arguments{"first-hits.csv", "first-hits.json", "first-hits.md"}));
+    for (const auto& [key, row] : Json::parse(run.output)["rays"].items()) {
+        EXPECT_GT(row["agree_percent"], 85.0) << key;  // in a closed box everything is hit
+        EXPECT_LT(row["median_voxels"], 1.5) << key;
+        EXPECT_GT(row["median_voxels"], 0.0) << key;
+    }
+}
+
 TEST(BenchCommand, GivesEveryContestantAndTheRatios) {
     const fs::path folder = fresh_folder();
     const ProgramRun run =

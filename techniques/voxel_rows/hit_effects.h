@@ -1,0 +1,31 @@
+// Two demonstrations of first hits (Wang 2017, section 7: future work): ambient occlusion, which needs to know how far
+// the first hit is, and mirrors, which need to know what it looks like.
+#pragma once
+
+#include "techniques/base/image.h"
+#include "techniques/scene/surface_buffer.h"
+#include "techniques/voxel_rows/row_array.h"
+#include "techniques/voxel_rows/surface_voxels.h"
+
+namespace sightlines::voxel_rows {
+
+struct OcclusionOptions {
+    int rays = 16;         ///< a pixel, cosine-distributed
+    float reach_m = 1.0f;  ///< a hit counts 1 - distance / reach
+    std::uint64_t seed = 1;
+    int threads = 0;
+};
+
+/// [P] how open each surface is, 0 to 1; 1 on the background.
+ImageScalar ambient_openness(const RowArray& array, const RowShape& query, const SurfaceBuffer& surfaces,
+                             const OcclusionOptions& options, Progress& progress);
+
+/// What each surface would show if it were a mirror: the voxels that the reflected camera rays hit first, as surfaces
+/// to be lit like others. no_triangle where they hit nothing.
+SurfaceBuffer mirrored_surfaces(const RowArray& array, const RowShape& query, const SurfaceVoxels& voxels,
+                                const SurfaceBuffer& surfaces, int threads, Progress& progress);
+
+/// A direction about `normal`, with probability proportional to the cosine, of two uniform numbers (Malley's method).
+vec3 cosine_direction(vec3 normal, float u, float v);
+
+}  // namespace sightlines::voxel_rows
