@@ -20,13 +20,6 @@ struct HitRays {
     std::vector<vec3> normals;
 };
 
-vec3 mirrored_direction(const SurfaceBuffer& surfaces, std::size_t pixel) {
-    const auto width = static_cast<std::size_t>(surfaces.size.width);
-    const vec2 middle = vec2(pixel % width, pixel / width) + 0.5f;
-    const Segment seen = camera_ray(surfaces.camera, surfaces.size, middle, 1.0f);
-    return glm::reflect(glm::normalize(seen.target - seen.origin), surfaces.shading_normal[pixel]);
-}
-
 template <class DirectionOf>
 HitRays rays_of(const SurfaceBuffer& surfaces, float length_m, const DirectionOf& direction_of) {
     HitRays rays;
@@ -110,7 +103,8 @@ FirstHitBench bench_first_hits(const Session& session, Results& results, Progres
         bench.rows.push_back(measured(key, rays, array, query, truth, bench.voxel_m, results.threads()));
         progress.check();
     };
-    measure("mirror", rays_of(seen, query.reach_m, [&](std::size_t pixel) { return mirrored_direction(seen, pixel); }));
+    measure("mirror", rays_of(seen, query.reach_m,
+                              [&](std::size_t pixel) { return voxel_rows::mirrored_direction(seen, pixel); }));
     measure("hemisphere", rays_of(seen, query.reach_m, [&](std::size_t pixel) {
                 const auto stream = static_cast<std::uint32_t>(pixel);
                 return voxel_rows::cosine_direction(seen.normal[pixel], random_unit(session.seed, stream, 0),

@@ -12,13 +12,10 @@
 #include <chrono>
 #include <mutex>
 
-#ifdef __BMI2__
-#include <immintrin.h>
-#endif
-
 #include "shaders/lighting.h"
 #include "techniques/base/parallel.h"
 #include "techniques/baselines/tiles.h"
+#include "techniques/packed_bits.h"
 #include "techniques/rays/light_records.h"
 #include "techniques/rays/reference.h"
 
@@ -76,18 +73,6 @@ HWY_INLINE void gather_asked(const PixelGroups& pixels, const LightRecord& light
     }
     if (batch.rays == 0) return;
     for (auto& numbers : batch.numbers) wide::store(wide::splat(numbers[batch.rays - 1]), &numbers[batch.rays]);
-}
-
-/// The lowest bits of `packed` at the places of the mask's set bits.
-HWY_INLINE std::uint32_t deposit_bits(std::uint32_t packed, std::uint32_t mask) {
-#ifdef __BMI2__
-    return _pdep_u32(packed, mask);
-#else
-    std::uint32_t spread = 0;
-    for (; mask != 0; mask &= mask - 1, packed >>= 1u)
-        if (packed & 1u) spread |= mask & (~mask + 1u);
-    return spread;
-#endif
 }
 
 HWY_INLINE void add_ones(std::vector<int>& sums, std::size_t start, wide::Mask mask) {
@@ -149,7 +134,7 @@ void ask_tile(const AskedLights& lights, std::uint32_t first_light, std::uint32_
                 const std::size_t word = ray / wide::lanes;
                 const std::uint64_t two = packed[word] | static_cast<std::uint64_t>(packed[word + 1]) << wide::lanes;
                 const std::uint32_t blocked =
-                    detail::deposit_bits(static_cast<std::uint32_t>(two >> (ray % wide::lanes)), asked[k]);
+                    deposit_bits(static_cast<std::uint32_t>(two >> (ray % wide::lanes)), asked[k]);
                 ray += static_cast<std::size_t>(std::popcount(asked[k]));
                 detail::add_answers<shade>(lights, light, (first + k) * wide::lanes, asked[k], blocked, tile, verdicts);
             }

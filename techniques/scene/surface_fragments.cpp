@@ -324,4 +324,12 @@ std::vector<Fragment> surface_fragments(const Scene& scene, const FragmentGrid& 
     return fragments;
 }
 
+vec3 winding_normal(const Scene& scene, std::uint32_t triangle) {
+    const uvec3 corners = scene.triangles[triangle];
+    const vec3 a = scene.positions[corners.x];
+    const vec3 normal = glm::cross(scene.positions[corners.y] - a, scene.positions[corners.z] - a);
+    const float length = glm::length(normal);
+    return length > 0.0f ? normal / length : vec3(0.0f);
+}
+
 }  // namespace sightlines

@@ -29,4 +29,7 @@ struct Fragment {
 /// then z. What lies outside the box leaves nothing; a sample on the box's faces belongs to the outermost cells.
 std::vector<Fragment> surface_fragments(const Scene& scene, const FragmentGrid& grid, int threads, Progress& progress);
 
+/// The triangle's unit normal by its winding; zero where it has no area.
+vec3 winding_normal(const Scene& scene, std::uint32_t triangle);
+
 }  // namespace sightlines

@@ -178,15 +178,6 @@ float fragment_cell_m(const RowGrid& grid, double samples_per_voxel) {
     return longest_m / static_cast<float>(grid.resolution * samples_per_voxel);
 }
 
-/// The triangle's unit normal by its winding; zero where it has no area.
-vec3 winding_normal(const Scene& scene, std::uint32_t triangle) {
-    const uvec3 corners = scene.triangles[triangle];
-    const vec3 a = scene.positions[corners.x];
-    const vec3 normal = glm::cross(scene.positions[corners.y] - a, scene.positions[corners.z] - a);
-    const float length = glm::length(normal);
-    return length > 0.0f ? normal / length : vec3(0.0f);
-}
-
 /// The samples that the fragments stand for, those of solids `inset_m` below the surface. In an order that keeps
 /// neighbours apart: adding two to the same voxel one after the other would wait for the first to be stored.
 std::vector<SurfaceSample> surface_samples(const Scene& scene, const std::vector<Fragment>& fragments, vec3 centre,

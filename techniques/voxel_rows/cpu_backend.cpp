@@ -11,11 +11,11 @@
 
 #include "shaders/voxel_rows.h"
 #include "techniques/base/parallel.h"
+#include "techniques/packed_bits.h"
 #include "techniques/pixel_groups.h"
 #include "techniques/rays/light_records.h"
 #include "techniques/refinement.h"
 #include "techniques/voxel_rows/cpu_objects.h"
-#include "techniques/voxel_rows/packed_bits.h"
 #include "techniques/voxel_rows/query.h"
 #include "techniques/voxel_rows/row_bits.h"
 

@@ -6,7 +6,7 @@
 
 #include "shaders/voxel_row_objects.h"
 #include "techniques/voxel_rows/cpu_objects.h"
-#include "techniques/voxel_rows/packed_bits.h"
+#include "techniques/packed_bits.h"
 
 namespace sightlines::voxel_rows {
 namespace {

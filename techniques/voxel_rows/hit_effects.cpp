@@ -85,6 +85,13 @@ ImageScalar ambient_openness(const RowArray& array, const RowShape& query, const
     return openness;
 }
 
+vec3 mirrored_direction(const SurfaceBuffer& surfaces, std::size_t pixel) {
+    const auto width = static_cast<std::size_t>(surfaces.size.width);
+    const vec2 middle = vec2(pixel % width, pixel / width) + 0.5f;
+    const Segment seen = camera_ray(surfaces.camera, surfaces.size, middle, 1.0f);
+    return glm::reflect(glm::normalize(seen.target - seen.origin), surfaces.shading_normal[pixel]);
+}
+
 SurfaceBuffer mirrored_surfaces(const RowArray& array, const RowShape& query, const SurfaceVoxels& voxels,
                                 const SurfaceBuffer& surfaces, int threads, Progress& progress) {
     SurfaceBuffer mirrored;
@@ -96,10 +103,7 @@ SurfaceBuffer mirrored_surfaces(const RowArray& array, const RowShape& query, co
         vectors->assign(count, vec3(0.0f));
     mirrored.triangle.assign(count, no_triangle);
     const auto rays_of = [&](std::size_t pixel, LineRays& rays) {
-        const auto width = static_cast<std::size_t>(surfaces.size.width);
-        const vec2 middle = vec2(pixel % width, pixel / width) + 0.5f;
-        const Segment seen = camera_ray(surfaces.camera, surfaces.size, middle, 1.0f);
-        const vec3 direction = glm::reflect(glm::normalize(seen.target - seen.origin), surfaces.shading_normal[pixel]);
+        const vec3 direction = mirrored_direction(surfaces, pixel);
         const vec3 position = surfaces.position[pixel];
         rays.add(pixel, {position, position + query.reach_m * direction}, surfaces.normal[pixel]);
     };

@@ -20,6 +20,9 @@ struct OcclusionOptions {
 ImageScalar ambient_openness(const RowArray& array, const RowShape& query, const SurfaceBuffer& surfaces,
                              const OcclusionOptions& options, Progress& progress);
 
+/// The way on of the camera's ray through the pixel, if the surface were a mirror. Unit.
+vec3 mirrored_direction(const SurfaceBuffer& surfaces, std::size_t pixel);
+
 /// What each surface would show if it were a mirror: the voxels that the reflected camera rays hit first, as surfaces
 /// to be lit like others. no_triangle where they hit nothing.
 SurfaceBuffer mirrored_surfaces(const RowArray& array, const RowShape& query, const SurfaceVoxels& voxels,

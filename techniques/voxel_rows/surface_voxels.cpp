@@ -35,14 +35,6 @@ vec2 barycentric_of(const Scene& scene, std::uint32_t triangle, vec3 point) {
     return inside / std::max(1.0f, inside.x + inside.y);
 }
 
-vec3 winding_normal(const Scene& scene, std::uint32_t triangle) {
-    const uvec3 corners = scene.triangles[triangle];
-    const vec3 a = scene.positions[corners.x];
-    const vec3 normal = glm::cross(scene.positions[corners.y] - a, scene.positions[corners.z] - a);
-    const float length = glm::length(normal);
-    return length > 0.0f ? normal / length : vec3(0.0f);
-}
-
 }  // namespace
 
 SurfaceVoxels voxelize_surface(const Scene& scene, int resolution, int threads, Progress& progress) {

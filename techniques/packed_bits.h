@@ -7,7 +7,7 @@
 #include <immintrin.h>
 #endif
 
-namespace sightlines::voxel_rows {
+namespace sightlines {
 
 /// The lowest bits of `packed` at the places of the mask's set bits.
 [[gnu::always_inline]] inline std::uint32_t deposit_bits(std::uint32_t packed, std::uint32_t mask) {
@@ -21,4 +21,4 @@ namespace sightlines::voxel_rows {
 #endif
 }
 
-}  // namespace sightlines::voxel_rows
+}  // namespace sightlines
