@@ -81,8 +81,7 @@ std::vector<std::uint8_t> bits_of(std::span<const std::uint32_t> words, int reso
 
 DictionarySummary summary_of(const voxel_rows::RowArray& array) {
     const voxel_rows::RowDictionary& dictionary = array.dictionary;
-    DictionarySummary summary{
-        dictionary.rows_mapped, dictionary.rows_left_over, dictionary.distinct_rows, dictionary.frequencies, {}};
+    DictionarySummary summary{dictionary.rows_mapped, dictionary.rows_left_over, dictionary.frequencies, {}};
     std::ranges::sort(summary.frequencies, std::greater());
     std::vector<std::uint32_t> order(dictionary.frequencies.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -190,13 +189,9 @@ DictionaryPicture dictionary_picture(const Session& session, const SelectedRay& 
         scalar_kernel::row_index(shape, {from.served.theta, from.served.phi}, from.served.v, from.served.w);
     const auto mapped = voxel_rows::row_words(from.array, row);
     picture.mapped = bits_of(mapped, shape.resolution);
-    picture.mapped_blocked = from.served.blocked;
     const voxel_rows::DictionaryEntry entry = voxel_rows::dictionary_entry(from.array, row);
     picture.mapped_index = entry.index;
     picture.frequency = entry.frequency;
-    const auto& frequencies = picture.summary->frequencies;
-    picture.mapped_rank = static_cast<std::uint32_t>(
-        std::ranges::lower_bound(frequencies, entry.frequency, std::greater()) - frequencies.begin());
     picture.step =
         voxel_rows::mapping_step(own_words(picture.row, shape.words_per_row), mapped, from.array.dictionary.steps);
     return picture;

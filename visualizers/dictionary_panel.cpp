@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <string>
 
 #include "visualizers/theme.h"
@@ -56,8 +57,9 @@ std::string mapping_sentence(const DictionaryPicture& picture, bool brief) {
 
 std::string verdict_sentence(const DictionaryPicture& picture) {
     const auto word = [](bool blocked) { return blocked ? std::string("blocked") : std::string("open"); };
-    if (picture.row.blocked == picture.mapped_blocked) return "Both rows answer: " + word(picture.row.blocked);
-    return "Compression changed the answer: " + word(picture.row.blocked) + " became " + word(picture.mapped_blocked);
+    const bool own = picture.row.blocked, mapped = is_mapped_blocked(picture);
+    if (own == mapped) return "Both rows answer: " + word(own);
+    return "Compression changed the answer: " + word(own) + " became " + word(mapped);
 }
 
 /// A row as cells; the ones outside the extent are lower.
@@ -103,7 +105,7 @@ void draw_differences(const Sheet& sheet, const Rectangle& between, float groups
 void draw_rows(const Sheet& sheet, const Rectangle& where) {
     const DictionaryPicture& picture = sheet.picture;
     const float em = sheet.em;
-    const bool changed = picture.row.blocked != picture.mapped_blocked;
+    const bool changed = picture.row.blocked != is_mapped_blocked(picture);
     TextStyle title = text_style(sheet, changed ? sheet.colours.pointed : sheet.colours.ink, 1.05f);
     title.bold = true;
     draw_text(sheet.canvas, where.corner + vec2(0.0f, 1.3f * em), verdict_sentence(picture), title);
@@ -227,7 +229,9 @@ void draw_frequencies(const Sheet& sheet, const Rectangle& where) {
         curve.push_back(axes.at(rank, frequencies[static_cast<std::size_t>(rank)]));
     }
     draw_path(sheet.canvas, curve, false, {.colour = sheet.colours.section, .width = 0.16f * em, .round_ends = true});
-    fill_circle(sheet.canvas, axes.at(sheet.picture.mapped_rank, sheet.picture.frequency), 0.36f * em,
+    const auto rank =
+        std::ranges::lower_bound(frequencies, sheet.picture.frequency, std::greater()) - frequencies.begin();
+    fill_circle(sheet.canvas, axes.at(static_cast<double>(rank), sheet.picture.frequency), 0.36f * em,
                 sheet.colours.pointed);
 }
 

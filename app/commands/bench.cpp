@@ -76,6 +76,7 @@ BenchOutput run_first_hits(const BenchFlags& flags, Progress& progress) {
     Session session = bench_session(flags);
     session.backend = BackendChoice::cpu;
     if (session.technique != "voxel_rows") throw InputError("--technique", "", "has no first hits", "leave it out");
+    session.parameters["voxel_rows"].try_emplace("first_hits", 1.0);  // then objects that move are in the array
     Results results(thread_flag(flags.common), Backend::cpu);
     return written(flags, "first-hits", bench_first_hits(session, results, progress));
 }

@@ -16,13 +16,10 @@ DictionaryPicture mapped_to(const std::vector<int>& bits, int step) {
     picture.row = furnished_picture();
     picture.mapped.assign(16, 0);
     for (const int u : bits) picture.mapped[static_cast<std::size_t>(u)] = 1;
-    for (int u = picture.row.first; u <= picture.row.last; ++u)
-        picture.mapped_blocked |= picture.mapped[static_cast<std::size_t>(u)] != 0;
     picture.mapped_index = 1234;
     picture.frequency = 50;
-    picture.mapped_rank = 2;
     picture.step = step;
-    DictionarySummary summary{{700, 200, 90, 8}, 2, 600, {1000, 100, 50, 1}, {}};
+    DictionarySummary summary{{700, 200, 90, 8}, 2, {1000, 100, 50, 1}, {}};
     summary.most_used.assign(3, std::vector<std::uint8_t>(16, 1));
     picture.summary = std::make_shared<const DictionarySummary>(summary);
     return picture;
