@@ -13,177 +13,198 @@
 namespace sightlines::voxel_rows {
 namespace {
 
-constexpr std::uint32_t most_looked_at = 128;       ///< rows of the dictionary for one that matches some down-sampled
+constexpr std::uint32_t most_looked_at = 64;        ///< rows of the dictionary for one that matches some down-sampled
 constexpr std::uint32_t fewest_looked_at = 32;      ///< of those that match it best
 constexpr std::uint32_t most_for_left_over = 1024;  ///< the same for one that is left over
+constexpr int second_shift = 4;  ///< half of what becomes one voxel at step_to_look_in
 constexpr int step_to_look_in = 3;  ///< the nearest is looked for among all that match down-sampled by 8, or more
 constexpr std::uint32_t most_packed_rows = 1u << 20u;
+constexpr std::size_t rows_between_checks = 1024;
 
-/// What mapping one part's rows came to. Rays: in all rows together.
+/// What mapping one deal's rows came to. Lights: of all rows together.
 struct MappedCounts {
     std::array<std::uint64_t, coarsest_step + 1> by_step{};
-    std::uint64_t left_over = 0, rays = 0, differing_rays = 0;
+    std::uint64_t left_over = 0, lights = 0;
+    std::int64_t differing_lights = 0;
+
+    MappedCounts& operator+=(const MappedCounts& more) {
+        for (std::size_t k = 0; k < by_step.size(); ++k) by_step[k] += more.by_step[k];
+        left_over += more.left_over;
+        lights += more.lights;
+        differing_lights += more.differing_lights;
+        return *this;
+    }
 };
 
 /// Everything that mapping needs, and where it writes.
 template <int length>
 struct Mapping {
     const DictionaryOptions& options;
-    const DictionarySearch<length>& search;
-    std::span<std::uint32_t> index_of_id;  ///< not_mapped, or of the dictionary
-    static constexpr std::uint32_t not_mapped = ~0u;
+    int resolution;
+    const SortedRows<length>& sorted;
+    std::vector<std::uint32_t> place_of_index;  ///< where each row of the dictionary is among the sorted ones
+    std::span<std::uint32_t> index_of_id;       ///< of the dictionary
 };
 
-/// The rows of one part that no step has matched so far.
+/// A row on its way to the dictionary.
 template <int length>
-struct Unmapped {
-    const DistinctRows<length>& part;
-    std::vector<std::uint32_t> rows;  ///< inside the part
+struct Asked {
+    RowBits<length> row;
+    std::uint32_t place;  ///< among the sorted rows
+    RowProbes<length> probes;
 };
 
 template <int length>
-Match compared(const DictionarySearch<length>& search, const RowBits<length>& row, const RowProbes<length>& probes,
-               std::uint32_t index) {
-    const RowBits<length>& other = search.rows[index];
-    return {index, {differing_rays(probes, other), differing_voxels(row, other)}};
+Match compared(const Mapping<length>& mapping, const Asked<length>& asked, std::uint32_t place) {
+    return nearest_in(mapping.sorted, {place, 1}, asked.row, asked.probes, {place, farthest});
 }
 
 /// Line 14: an index that depends on nothing but the seed and the bits.
 template <int length>
-std::uint32_t random_row(const Mapping<length>& mapping, const RowBits<length>& row) {
+std::uint32_t random_place(const Mapping<length>& mapping, const RowBits<length>& row) {
     const std::uint64_t hash = hash_row(row);
-    return random_u32(mapping.options.seed, static_cast<std::uint32_t>(hash >> 32u), static_cast<std::uint32_t>(hash)) %
-           static_cast<std::uint32_t>(mapping.search.rows.size());
+    const std::uint32_t number =
+        random_u32(mapping.options.seed, static_cast<std::uint32_t>(hash >> 32u), static_cast<std::uint32_t>(hash));
+    return mapping.place_of_index[number % mapping.place_of_index.size()];
 }
 
-/// At most `most` rows of `all`, round the middle of `part` of them.
-Range window(Range all, Range part, std::uint32_t most) {
+/// At most `most` rows of `all`, round `place`.
+Range window(Range all, std::uint32_t place, std::uint32_t most) {
     if (all.count <= most) return all;
-    const std::uint32_t middle = part.first + part.count / 2;
-    const std::uint32_t first = middle > most / 2 ? middle - most / 2 : 0;
+    const std::uint32_t first = place > most / 2 ? place - most / 2 : 0;
     return {std::clamp(first, all.first, all.first + all.count - most), most};
 }
 
-/// Where a row is compared with those of the dictionary one by one: those of the group, which it matches, and others
-/// that it matches down-sampled further.
+/// The nearest round where the row would be, or `best`.
 template <int length>
-Range rows_to_look_at(const DictionarySearch<length>& search, const DictionaryStep<length>& step,
-                      const typename DictionaryStep<length>::Group& group, const RowBits<length>& row, bool left_over) {
-    if (left_over) return window(group.range, {place_among(search.sorted, row), 1}, most_for_left_over);
-    if (step.step >= step_to_look_in) return window(group.range, group.range, most_looked_at);
-    const auto& wider = search.steps[step_to_look_in - 1].find(simplify(row, step_to_look_in));
-    return window(wider.range, group.range, most_looked_at);
+Match nearest_round(const SortedRows<length>& sorted, const Asked<length>& asked, Range all, std::uint32_t most,
+                    const Match& best) {
+    return nearest_in(sorted, window(all, asked.place, most), asked.row, asked.probes, best);
 }
 
-/// The dictionary's row for `row`, which belongs to the group: the paper's, or one that is no further away.
+/// The dictionary's row for one that belongs to the group after `step`: the paper's, or one that is no further away.
 template <int length>
-Match choose(const Mapping<length>& mapping, const DictionaryStep<length>& step,
-             const typename DictionaryStep<length>::Group& group, const RowBits<length>& row,
-             const RowProbes<length>& probes) {
-    const bool left_over = step.step >= mapping.options.steps;
-    const std::uint32_t papers = left_over ? random_row(mapping, row) : group.lowest;
-    const Match first = compared(mapping.search, row, probes, papers);
-    if (mapping.options.leftovers == Leftovers::random) return first;
+Match choose(const Mapping<length>& mapping, const Group& group, int step, const Asked<length>& asked) {
+    const bool left_over = step >= mapping.options.steps;
+    const Match papers = compared(mapping, asked, left_over ? random_place(mapping, asked.row) : group.best);
+    if (mapping.options.leftovers == Leftovers::random) return papers;
     // The likelier ones first: the others are given up the sooner.
-    const Match near =
-        nearest_in(mapping.search.sorted, window(group.range, group.range, fewest_looked_at), row, probes, first);
-    return nearest_in(mapping.search.sorted, rows_to_look_at(mapping.search, step, group, row, left_over), row, probes,
-                      near);
+    const Match near = nearest_round(mapping.sorted, asked, group.range, fewest_looked_at, papers);
+    if (left_over) return nearest_round(mapping.sorted, asked, group.range, most_for_left_over, near);
+    const Group* wider = find_group(mapping.sorted, asked.row, asked.place, std::max(step, step_to_look_in));
+    return nearest_round(mapping.sorted, asked, wider->range, most_looked_at, near);
 }
 
+/// Lines 7 to 15 for one row that is not in the dictionary.
 template <int length>
-void keep(const Mapping<length>& mapping, const DistinctRows<length>& part, std::uint32_t row, const Match& match,
-          const RowProbes<length>& probes, std::uint64_t& rows_mapped, MappedCounts& counts) {
-    mapping.index_of_id[part.first_id + row] = match.index;
-    rows_mapped += part.counts[row];
-    counts.rays += std::uint64_t{probes.rays()} * part.counts[row];
-    counts.differing_rays += std::uint64_t{match.distance.rays} * part.counts[row];
-}
-
-/// Lines 7 to 11 for one part: what matches leaves `unmapped`. In small batches, whose groups are on their way from
-/// memory while others are looked at.
-template <int length>
-void match_step(const Mapping<length>& mapping, const DictionaryStep<length>& step, Unmapped<length>& unmapped,
-                MappedCounts& counts, const Progress& progress) {
-    constexpr std::size_t batch = 64;
-    std::uint64_t& rows_mapped =
-        step.step < mapping.options.steps ? counts.by_step[static_cast<std::size_t>(step.step)] : counts.left_over;
-    std::array<RowBits<length>, batch> keys;
-    std::size_t left = 0;
-    for (std::size_t first = 0; first < unmapped.rows.size(); first += batch) {
-        if (first % (16 * batch) == 0) progress.check();
-        const std::size_t count = std::min(batch, unmapped.rows.size() - first);
-        for (std::size_t k = 0; k < count; ++k) {
-            keys[k] = simplify(unmapped.part.rows[unmapped.rows[first + k]], step.step);
-            __builtin_prefetch(&step.groups[step.place_of(keys[k])]);
-        }
-        for (std::size_t k = 0; k < count; ++k) {
-            const auto& group = step.find(keys[k]);
-            const std::uint32_t row = unmapped.rows[first + k];
-            if (group.range.count == 0) {
-                unmapped.rows[left++] = row;
-                continue;
-            }
-            const RowBits<length>& bits = unmapped.part.rows[row];
-            const RowProbes<length> probes(bits, mapping.search.resolution);
-            keep(mapping, unmapped.part, row, choose(mapping, step, group, bits, probes), probes, rows_mapped, counts);
-        }
+Match map_row(const Mapping<length>& mapping, const Asked<length>& asked, std::uint64_t*& counter,
+              MappedCounts& counts) {
+    const bool nearest = mapping.options.leftovers == Leftovers::nearest;
+    for (int step = 1; step <= coarsest_step && (step < mapping.options.steps || nearest); ++step) {
+        const Group* group = find_group(mapping.sorted, asked.row, asked.place, step);
+        if (group == nullptr) continue;
+        counter = step < mapping.options.steps ? &counts.by_step[static_cast<std::size_t>(step)] : &counts.left_over;
+        return choose(mapping, *group, step, asked);
     }
-    unmapped.rows.resize(left);
+    counter = &counts.left_over;
+    return compared(mapping, asked, random_place(mapping, asked.row));
 }
 
-/// Lines 13 to 15.
+/// The rows of the dictionary whose prefixes are in [begin, end).
 template <int length>
-void map_at_random(const Mapping<length>& mapping, const Unmapped<length>& unmapped, MappedCounts& counts) {
-    for (const std::uint32_t k : unmapped.rows) {
-        const RowBits<length>& row = unmapped.part.rows[k];
-        const RowProbes<length> probes(row, mapping.search.resolution);
-        keep(mapping, unmapped.part, k, compared(mapping.search, row, probes, random_row(mapping, row)), probes,
-             counts.left_over, counts);
-    }
+Range range_of(const SortedRows<length>& sorted, std::uint64_t begin, std::uint64_t end) {
+    const auto place = [&](std::uint64_t prefix) {
+        return static_cast<std::uint32_t>(std::ranges::lower_bound(sorted.prefix, prefix) - sorted.prefix.begin());
+    };
+    return {place(begin), place(end) - place(begin)};
+}
+
+/// The rows of the dictionary that lie in the order where a deal's rows do.
+template <int length>
+Range range_of_deal(const SortedRows<length>& sorted, const RowDeals<length>& rows, std::size_t deal) {
+    return range_of(sorted, deal == 0 ? 0 : rows.cuts[deal - 1],
+                    deal == rows.cuts.size() ? ~std::uint64_t{0} : rows.cuts[deal]);
 }
 
 template <int length>
-MappedCounts map_part(const Mapping<length>& mapping, const DistinctRows<length>& part, const Progress& progress) {
+MappedCounts map_deal(const Mapping<length>& mapping, const RowDeals<length>& rows, std::size_t deal,
+                      const Progress& progress) {
     MappedCounts counts;
-    Unmapped<length> unmapped{part, {}};
-    for (std::uint32_t k = 0; k < part.rows.size(); ++k) {
-        if (mapping.index_of_id[part.first_id + k] == Mapping<length>::not_mapped) {
-            unmapped.rows.push_back(k);
-            continue;
-        }
-        counts.by_step[0] += part.counts[k];
-        counts.rays +=
-            std::uint64_t{RowProbes<length>(part.rows[k], mapping.search.resolution).rays()} * part.counts[k];
+    const Range alike = range_of_deal(mapping.sorted, rows, deal);
+    for (std::size_t k = rows.first[deal]; k < rows.first[deal + 1]; ++k) {
+        if ((k - rows.first[deal]) % rows_between_checks == 0) progress.check();
+        const DealtRow<length> dealt = rows[k];
+        const std::uint32_t place = place_among(mapping.sorted, alike, dealt.row);
+        const Asked<length> asked{dealt.row, place, RowProbes<length>(dealt.row, mapping.resolution)};
+        Match match{place, {}};
+        std::uint64_t* counter = &counts.by_step[0];
+        if (place == mapping.sorted.rows.size() || mapping.sorted.rows[place] != dealt.row)
+            match = map_row(mapping, asked, counter, counts);
+        *counter += dealt.count;
+        counts.lights += asked.probes.lights() * dealt.count;
+        counts.differing_lights += std::int64_t{match.distance.lights} * dealt.count;
+        mapping.index_of_id[dealt.id] = mapping.sorted.index[match.place];
+        rows.distance(k) = match.distance.lights;
     }
-    for (const DictionaryStep<length>& step : mapping.search.steps)
-        if (step.step < mapping.options.steps || mapping.options.leftovers == Leftovers::nearest)
-            match_step(mapping, step, unmapped, counts, progress);
-    map_at_random(mapping, unmapped, counts);
     return counts;
 }
 
-/// Lines 3 to 15. index_of_id knows the dictionary's own rows already.
+/// Looks for rows that are nearer among those that match shifted and down-sampled.
 template <int length>
-MappedCounts map_rows(const RowHistogram<length>& histogram, const std::vector<RowBits<length>>& dictionary,
-                      int resolution, const DictionaryOptions& options, std::span<std::uint32_t> index_of_id,
-                      Progress& progress) {
-    progress.begin("mapping rows to the dictionary", coarsest_step + static_cast<std::int64_t>(histogram.parts.size()));
-    const DictionarySearch<length> search = make_search(dictionary, resolution, options.threads, progress);
-    const Mapping<length> mapping{options, search, index_of_id};
-    std::vector<MappedCounts> counts(histogram.parts.size());
-    parallel_for(static_cast<std::int64_t>(histogram.parts.size()), options.threads, [&](std::int64_t index) {
-        const auto part = static_cast<std::size_t>(index);
-        counts[part] = map_part(mapping, histogram.parts[part], progress);
+MappedCounts look_again(const Mapping<length>& mapping, const RowDeals<length>& rows, std::size_t deal,
+                        const Progress& progress) {
+    MappedCounts counts;
+    const Range alike = range_of_deal(mapping.sorted, rows, deal);
+    for (std::size_t k = rows.first[deal]; k < rows.first[deal + 1]; ++k) {
+        if ((k - rows.first[deal]) % rows_between_checks == 0) progress.check();
+        const DealtRow<length> dealt = rows[k];
+        const std::uint32_t place = place_among(mapping.sorted, alike, dealt.row);
+        const Group* group = nullptr;
+        for (int step = step_to_look_in; step <= coarsest_step && group == nullptr; ++step)
+            group = find_group(mapping.sorted, dealt.row, place, step);
+        if (group == nullptr) continue;
+        const Asked<length> asked{dealt.row, place, RowProbes<length>(dealt.row, mapping.resolution)};
+        const Match known{place, {dealt.distance, 0}};
+        const Match match = nearest_round(mapping.sorted, asked, group->range, most_looked_at, known);
+        if (match.distance == known.distance) continue;
+        counts.differing_lights -= std::int64_t{dealt.distance - match.distance.lights} * dealt.count;
+        mapping.index_of_id[dealt.id] = mapping.sorted.index[match.place];
+    }
+    return counts;
+}
+
+/// Calls map(deal) for all deals and sums up what comes.
+template <class Map>
+MappedCounts map_deals(std::size_t deals, int threads, Progress& progress, const Map& map) {
+    std::vector<MappedCounts> counts(deals);
+    parallel_for(static_cast<std::int64_t>(deals), threads, [&](std::int64_t deal) {
+        counts[static_cast<std::size_t>(deal)] = map(static_cast<std::size_t>(deal));
         progress.advance();
     });
     MappedCounts total;
-    for (const MappedCounts& part : counts) {
-        for (std::size_t k = 0; k < total.by_step.size(); ++k) total.by_step[k] += part.by_step[k];
-        total.left_over += part.left_over;
-        total.rays += part.rays;
-        total.differing_rays += part.differing_rays;
-    }
+    for (const MappedCounts& deal : counts) total += deal;
+    return total;
+}
+
+/// Lines 3 to 15.
+template <int length>
+MappedCounts map_rows(RowDeals<length> rows, const std::vector<RowBits<length>>& dictionary, int resolution,
+                      const DictionaryOptions& options, std::span<std::uint32_t> index_of_id, Progress& progress) {
+    progress.begin("mapping rows to the dictionary", static_cast<std::int64_t>(rows.deals()));
+    const SortedRows<length> sorted = sort_rows(dictionary, 0, options.threads, progress);
+    Mapping<length> mapping{options, resolution, sorted, std::vector<std::uint32_t>(dictionary.size()), index_of_id};
+    for (std::uint32_t place = 0; place < sorted.index.size(); ++place)
+        mapping.place_of_index[sorted.index[place]] = place;
+    MappedCounts total = map_deals(rows.deals(), options.threads, progress,
+                                   [&](std::size_t deal) { return map_deal(mapping, rows, deal, progress); });
+    if (options.leftovers == Leftovers::random) return total;
+
+    rows = deal_again(rows, second_shift, options.threads, progress);
+    progress.begin("looking for nearer rows", static_cast<std::int64_t>(rows.deals()));
+    const SortedRows<length> moved = sort_rows(dictionary, second_shift, options.threads, progress);
+    const Mapping<length> again{options, resolution, moved, {}, index_of_id};
+    total += map_deals(rows.deals(), options.threads, progress,
+                       [&](std::size_t deal) { return look_again(again, rows, deal, progress); });
     return total;
 }
 
@@ -226,18 +247,15 @@ RowArray compress_rows(const RowArray& array, const DictionaryOptions& options, 
     made.grid = array.grid;
     made.build_seconds = array.build_seconds;
     made.fragments = array.fragments;
-    const RowHistogram<length> histogram = count_rows<length>(array, options.threads, progress);
-    const std::vector<ChosenRow<length>> chosen = choose_rows(histogram, options, progress);
+    RowHistogram<length> histogram = count_rows<length>(array, options.threads, progress);
+    RowDeals<length> rows = deal_rows(std::move(histogram.parts), options.threads, progress);
+    const std::vector<ChosenRow<length>> chosen = choose_rows(rows, options, progress);
     std::vector<RowBits<length>> dictionary;
     for (const ChosenRow<length>& row : chosen) dictionary.push_back(row.row);
-
+    // Where there is no blank row, its place, which is that of padding too, stays 0.
     const HugeBuffer index_of_id = allocate_huge(histogram.ids);
-    std::ranges::fill(index_of_id.words.subspan(1), Mapping<length>::not_mapped);
-    // The blank row's place is that of padding too, and stays 0 where there is no blank row.
-    if (histogram.parts.back().first_id == 0) index_of_id.words[0] = Mapping<length>::not_mapped;
-    for (std::uint32_t index = 0; index < chosen.size(); ++index) index_of_id.words[chosen[index].id] = index;
     const MappedCounts counts =
-        map_rows(histogram, dictionary, array.grid.resolution, options, index_of_id.words, progress);
+        map_rows(std::move(rows), dictionary, array.grid.resolution, options, index_of_id.words, progress);
 
     RowDictionary& kept = made.dictionary;
     kept.rows = static_cast<std::uint32_t>(dictionary.size());
@@ -246,7 +264,7 @@ RowArray compress_rows(const RowArray& array, const DictionaryOptions& options, 
     kept.distinct_rows = histogram.distinct;
     kept.rows_mapped.assign(counts.by_step.begin(), counts.by_step.begin() + options.steps);
     kept.rows_left_over = counts.left_over;
-    kept.differing_share = static_cast<double>(counts.differing_rays) / std::max(1.0, static_cast<double>(counts.rays));
+    kept.differing_share = static_cast<double>(counts.differing_lights) / std::max(1.0, static_cast<double>(counts.lights));
     for (const ChosenRow<length>& row : chosen) kept.frequencies.push_back(row.count);
     made.words = allocate_huge(compressed_words(array.grid, kept.rows, kept.index_bits));
     std::memcpy(made.words.words.data(), dictionary.data(), dictionary.size() * sizeof dictionary[0]);
@@ -285,11 +303,11 @@ int mapping_step(std::span<const std::uint32_t> row, std::span<const std::uint32
     });
 }
 
-std::uint32_t differing_rays(std::span<const std::uint32_t> row, std::span<const std::uint32_t> dictionary_row,
-                             int resolution) {
+std::uint32_t differing_lights(std::span<const std::uint32_t> row, std::span<const std::uint32_t> dictionary_row,
+                               int resolution) {
     return with_row_length(static_cast<int>(row.size()), [&](auto length) {
         const RowProbes<length()> probes(load_row<length()>(row.data()), resolution);
-        return differing_rays(probes, load_row<length()>(dictionary_row.data()));
+        return differing_lights(probes, load_row<length()>(dictionary_row.data()));
     });
 }
 

@@ -9,7 +9,7 @@ namespace sightlines::voxel_rows {
 /// several match.
 enum class Leftovers {
     random,  ///< the paper: a random row; the most frequent of several
-    nearest  ///< the row that answers the fewest rays differently (differing_rays), among a bounded number
+    nearest  ///< the row that answers the fewest lights differently (differing_lights), among a bounded number
 };
 
 /// Which rows make the dictionary.
@@ -42,9 +42,10 @@ std::uint64_t row_hash(std::span<const std::uint32_t> row);
 int mapping_step(std::span<const std::uint32_t> row, std::span<const std::uint32_t> dictionary_row, int steps);
 
 /// The measure of "nearest". From each surface of `row` rays leave along the row: they start at the first and at the
-/// second voxel beyond it, where these are clear, and end at every voxel from there to the row's end. So many of them
-/// does `dictionary_row` answer differently.
-std::uint32_t differing_rays(std::span<const std::uint32_t> row, std::span<const std::uint32_t> dictionary_row,
-                             int resolution);
+/// second voxel beyond it, where these are clear, and end at lights in the voxels from there to the row's end. Lights spread
+/// evenly through space stand in a cone round the row, so that (k + 1)^3 - k^3 of them are k voxels away (an eighth of
+/// these in rows of more than 128 voxels). So many lights does `dictionary_row` answer differently.
+std::uint32_t differing_lights(std::span<const std::uint32_t> row, std::span<const std::uint32_t> dictionary_row,
+                               int resolution);
 
 }  // namespace sightlines::voxel_rows

@@ -1,110 +1,65 @@
 #include "techniques/voxel_rows/dictionary_choice.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "techniques/base/parallel.h"
 
 namespace sightlines::voxel_rows {
 namespace {
 
-constexpr std::size_t most_deals = 1024;
 constexpr int coarsest_group = 2;  ///< down-sampled by 4
+constexpr std::uint32_t most_worth = ~0u;
 
-/// A distinct row on its way to those that are like it.
+/// Rows of one deal that are alike down-sampled.
 template <int length>
-struct DealtRow {
-    RowBits<length> row;
-    std::uint32_t count, id;
-};
-
-/// Rows that are alike down-sampled.
 struct Group {
+    RowBits<length> key, best_row;
     std::uint64_t count = 0;        ///< of all of them together
-    std::uint32_t best_plus_1 = 0;  ///< the most frequent one; 0: a free place
+    std::uint32_t best_count = 0;   ///< of the most frequent one
+    std::uint32_t best_plus_1 = 0;  ///< its place in the deal; 0: a free place
 };
 
 template <int length>
-bool more_frequent(const DealtRow<length>& a, const DealtRow<length>& b) {
-    if (a.count != b.count) return a.count > b.count;
-    const std::uint64_t hash_a = hash_row(a.row), hash_b = hash_row(b.row);
-    return hash_a != hash_b ? hash_a < hash_b : a.row < b.row;
+bool is_more_frequent(const DealtRow<length>& a, const Group<length>& b) {
+    if (a.count != b.best_count) return a.count > b.best_count;
+    const std::uint64_t hash_a = hash_row(a.row), hash_b = hash_row(b.best_row);
+    return hash_a != hash_b ? hash_a < hash_b : a.row < b.best_row;
 }
 
-/// Adds each group's worth to the worth of its most frequent row.
+/// Adds each group's worth to the worth of its most frequent row. worth: [rows of the deal].
 template <int length>
-void add_worth_of_groups(std::span<const DealtRow<length>> rows, int step, std::span<std::uint32_t> worth_of_id) {
-    std::vector<Group> groups(std::bit_ceil(2 * rows.size() + 1));
-    std::vector<RowBits<length>> keys(groups.size());
-    for (std::uint32_t k = 0; k < rows.size(); ++k) {
-        const RowBits<length> key = simplify(rows[k].row, step);
+void add_worth_of_groups(const RowDeals<length>& rows, std::size_t deal, int step, std::span<std::uint32_t> worth) {
+    std::vector<Group<length>> groups(std::bit_ceil(2 * worth.size() + 1));
+    for (std::uint32_t k = 0; k < worth.size(); ++k) {
+        const DealtRow<length> row = rows[rows.first[deal] + k];
+        const RowBits<length> key = simplify(row.row, step);
         std::size_t at = hash_row(key) & (groups.size() - 1);
-        while (groups[at].best_plus_1 != 0 && keys[at] != key) at = (at + 1) & (groups.size() - 1);
-        Group& group = groups[at];
-        keys[at] = key;
-        group.count += rows[k].count;
-        if (group.best_plus_1 == 0 || more_frequent(rows[k], rows[group.best_plus_1 - 1])) group.best_plus_1 = k + 1;
+        while (groups[at].best_plus_1 != 0 && groups[at].key != key) at = (at + 1) & (groups.size() - 1);
+        Group<length>& group = groups[at];
+        if (group.best_plus_1 == 0 || is_more_frequent(row, group))
+            group = {key, row.row, group.count, row.count, k + 1};
+        group.count += row.count;
     }
-    for (const Group& group : groups) {
+    for (const Group<length>& group : groups) {
         if (group.best_plus_1 == 0) continue;
-        std::uint32_t& worth = worth_of_id[rows[group.best_plus_1 - 1].id];
-        const std::uint64_t more = worth + worth_of_group[step] * group.count;
-        worth = static_cast<std::uint32_t>(std::min<std::uint64_t>(more, ~0u));
+        std::uint32_t& of_best = worth[group.best_plus_1 - 1];
+        const std::uint64_t more = of_best + worth_of_group[step] * group.count;
+        of_best = static_cast<std::uint32_t>(std::min<std::uint64_t>(more, most_worth));
     }
 }
 
-/// Deals the distinct rows out by their hashes down-sampled by 4, so that each group comes together; [deals + 1] is
-/// where each deal begins.
+/// What each row is worth: [rows.rows()].
 template <int length>
-std::vector<std::size_t> deal_groups(const RowHistogram<length>& histogram, std::size_t deals, int threads,
-                                     std::vector<DealtRow<length>>& dealt, Progress& progress) {
-    const auto parts = static_cast<std::int64_t>(histogram.parts.size());
-    const auto deal_of = [&](const RowBits<length>& row) {
-        return (hash_row(simplify(row, coarsest_group)) >> 32u) & (deals - 1);
-    };
-    std::vector<std::uint32_t> places(histogram.parts.size() * deals);
-    parallel_for(parts, threads, [&](std::int64_t part) {
-        std::uint32_t* own = &places[static_cast<std::size_t>(part) * deals];
-        for (const RowBits<length>& row : histogram.parts[static_cast<std::size_t>(part)].rows) ++own[deal_of(row)];
-        progress.advance();
-    });
-    std::vector<std::size_t> first(deals + 1);
-    std::uint32_t place = 0;
-    for (std::size_t deal = 0; deal < deals; ++deal) {
-        first[deal] = place;
-        for (std::size_t part = 0; part < histogram.parts.size(); ++part)
-            place += std::exchange(places[part * deals + deal], place);
-    }
-    first[deals] = place;
-    dealt.resize(place);
-    parallel_for(parts, threads, [&](std::int64_t index) {
-        const auto& part = histogram.parts[static_cast<std::size_t>(index)];
-        std::uint32_t* next = &places[static_cast<std::size_t>(index) * deals];
-        for (std::uint32_t k = 0; k < part.rows.size(); ++k)
-            dealt[next[deal_of(part.rows[k])]++] = {part.rows[k], part.counts[k], part.first_id + k};
-        progress.advance();
-    });
-    return first;
-}
-
-/// What each distinct row is worth: [histogram.ids].
-template <int length>
-std::vector<std::uint32_t> worth_of_ids(const RowHistogram<length>& histogram, const DictionaryOptions& options,
-                                        Progress& progress) {
-    std::vector<std::uint32_t> worth(histogram.ids);
-    for (const DistinctRows<length>& part : histogram.parts) {
-        progress.check();
-        std::ranges::copy(part.counts, worth.begin() + part.first_id);
-    }
-    if (options.choice == DictionaryChoice::frequent) return worth;
-    const std::size_t deals = std::min(std::bit_ceil(histogram.distinct / 32768 + 1), most_deals);
-    std::vector<DealtRow<length>> dealt;
-    const std::vector<std::size_t> first = deal_groups(histogram, deals, options.threads, dealt, progress);
-    parallel_for(static_cast<std::int64_t>(deals), options.threads, [&](std::int64_t index) {
+HugeBuffer worth_of_rows(const RowDeals<length>& rows, const DictionaryOptions& options, Progress& progress) {
+    HugeBuffer worth = allocate_huge(rows.rows());
+    parallel_for(static_cast<std::int64_t>(rows.deals()), options.threads, [&](std::int64_t index) {
         const auto deal = static_cast<std::size_t>(index);
-        const auto rows = std::span<const DealtRow<length>>(dealt).subspan(first[deal], first[deal + 1] - first[deal]);
-        for (int step = 1; step <= coarsest_group; ++step) add_worth_of_groups<length>(rows, step, worth);
-        progress.check();
+        const std::size_t first = rows.first[deal];
+        const auto own = worth.words.subspan(first, rows.first[deal + 1] - first);
+        for (std::size_t k = 0; k < own.size(); ++k) own[k] = rows[first + k].count;
+        if (options.choice == DictionaryChoice::covering)
+            for (int step = 1; step <= coarsest_group; ++step) add_worth_of_groups(rows, deal, step, own);
+        progress.advance();
     });
     return worth;
 }
@@ -113,9 +68,9 @@ std::vector<std::uint32_t> worth_of_ids(const RowHistogram<length>& histogram, c
 std::uint32_t least_worth(std::span<const std::uint32_t> worth, std::uint32_t n, const Progress& progress) {
     constexpr std::uint32_t highest = (1u << 16u) - 1;
     std::vector<std::uint64_t> rows_of_worth(highest + 1);
-    for (std::size_t id = 0; id < worth.size(); ++id) {
-        if (id % (1u << 20u) == 0) progress.check();
-        ++rows_of_worth[std::min(worth[id], highest)];
+    for (std::size_t place = 0; place < worth.size(); ++place) {
+        if (place % (1u << 20u) == 0) progress.check();
+        ++rows_of_worth[std::min(worth[place], highest)];
     }
     std::uint64_t rows = 0;
     std::uint32_t least = highest;
@@ -129,38 +84,37 @@ std::uint32_t least_worth(std::span<const std::uint32_t> worth, std::uint32_t n,
 }  // namespace
 
 template <int length>
-std::vector<ChosenRow<length>> choose_rows(const RowHistogram<length>& histogram, const DictionaryOptions& options,
+std::vector<ChosenRow<length>> choose_rows(const RowDeals<length>& rows, const DictionaryOptions& options,
                                            Progress& progress) {
-    progress.begin("choosing the dictionary", 2 * static_cast<std::int64_t>(histogram.parts.size()));
-    const std::vector<std::uint32_t> worth = worth_of_ids(histogram, options, progress);
-    const std::uint32_t least = least_worth(worth, options.rows, progress);
+    progress.begin("choosing the dictionary", static_cast<std::int64_t>(rows.deals()));
+    const HugeBuffer worth = worth_of_rows(rows, options, progress);
+    const std::uint32_t least = least_worth(worth.words, options.rows, progress);
     std::vector<ChosenRow<length>> chosen;
-    for (const DistinctRows<length>& part : histogram.parts) {
-        progress.check();
-        for (std::uint32_t k = 0; k < part.rows.size(); ++k)
-            if (worth[part.first_id + k] >= least)
-                chosen.push_back({part.rows[k], hash_row(part.rows[k]), part.counts[k], part.first_id + k});
+    for (std::size_t place = 0; place < rows.rows(); ++place) {
+        if (place % (1u << 20u) == 0) progress.check();
+        if (worth.words[place] < least) continue;
+        const DealtRow<length> row = rows[place];
+        chosen.push_back({row.row, hash_row(row.row), row.count, worth.words[place]});
     }
     std::uint32_t compared = 0;
-    const auto by = [&](auto number_of) {
-        return [&, number_of](const ChosenRow<length>& a, const ChosenRow<length>& b) {
+    const auto by = [&](auto number) {
+        return [&, number](const ChosenRow<length>& a, const ChosenRow<length>& b) {
             if (++compared % (1u << 16u) == 0) progress.check();  // sorting takes longer than whoever cancels waits
-            if (number_of(a) != number_of(b)) return number_of(a) > number_of(b);
+            if (a.*number != b.*number) return a.*number > b.*number;
             return a.hash != b.hash ? a.hash < b.hash : a.row < b.row;
         };
     };
     if (chosen.size() > options.rows) {
-        std::ranges::nth_element(chosen, chosen.begin() + options.rows,
-                                 by([&](const ChosenRow<length>& row) { return worth[row.id]; }));
+        std::ranges::nth_element(chosen, chosen.begin() + options.rows, by(&ChosenRow<length>::worth));
         chosen.resize(options.rows);
     }
-    std::ranges::sort(chosen, by([](const ChosenRow<length>& row) { return row.count; }));
+    std::ranges::sort(chosen, by(&ChosenRow<length>::count));
     return chosen;
 }
 
-template std::vector<ChosenRow<1>> choose_rows(const RowHistogram<1>&, const DictionaryOptions&, Progress&);
-template std::vector<ChosenRow<2>> choose_rows(const RowHistogram<2>&, const DictionaryOptions&, Progress&);
-template std::vector<ChosenRow<4>> choose_rows(const RowHistogram<4>&, const DictionaryOptions&, Progress&);
-template std::vector<ChosenRow<8>> choose_rows(const RowHistogram<8>&, const DictionaryOptions&, Progress&);
+template std::vector<ChosenRow<1>> choose_rows(const RowDeals<1>&, const DictionaryOptions&, Progress&);
+template std::vector<ChosenRow<2>> choose_rows(const RowDeals<2>&, const DictionaryOptions&, Progress&);
+template std::vector<ChosenRow<4>> choose_rows(const RowDeals<4>&, const DictionaryOptions&, Progress&);
+template std::vector<ChosenRow<8>> choose_rows(const RowDeals<8>&, const DictionaryOptions&, Progress&);
 
 }  // namespace sightlines::voxel_rows

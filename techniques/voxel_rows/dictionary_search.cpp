@@ -1,119 +1,157 @@
 #include "techniques/voxel_rows/dictionary_search.h"
 
 #include <algorithm>
-#include <numeric>
+#include <ranges>
 
 // The build fixes the instruction set.
 #define HWY_COMPILE_ONLY_STATIC
 #include <hwy/highway.h>
 
 #include "techniques/base/parallel.h"
+#include "techniques/voxel_rows/row_deals.h"
 
 namespace sightlines::voxel_rows {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Tag = hn::CappedTag<std::uint64_t, 8>;
+using Tag = hn::CappedTag<std::uint32_t, 16>;
 using Vector = hn::Vec<Tag>;
 constexpr std::size_t lanes = hn::MaxLanes(Tag());
-
-/// The row down-sampled by 32, 16 and 8, bit after bit from the top: rows sorted by it lie together where they are
-/// alike after any of these steps.
 template <int length>
-std::uint64_t coarse_prefix(const RowBits<length>& row) {
-    static_assert(length * (1 + 2 + 4) <= 64);
-    std::uint64_t prefix = 0;
-    for (int step = 5; step >= 3; --step) {
-        const RowBits<length> key = simplify(row, step);
-        for (const std::uint32_t word : key.words)
-            for (unsigned bit = 0; bit < 32; bit += 1u << static_cast<unsigned>(step))
-                prefix = prefix << 1u | (word >> bit & 1u);
+constexpr std::size_t block_words = 2 * static_cast<std::size_t>(length) * lanes;
+
+constexpr std::size_t rows_between_checks = 1u << 14u;
+
+/// What a row is put in order by.
+template <int length>
+struct SortKey {
+    std::uint64_t prefix;
+    RowBits<length> moved, row;
+
+    SortKey(const RowBits<length>& row_, int shift)
+        : SortKey(row_, shift, coarse_prefix(shifted(row_, shift))) {}
+    SortKey(const RowBits<length>& row_, int shift, std::uint64_t prefix_)
+        : prefix(prefix_), moved(shifted(row_, shift)), row(row_) {}
+
+    std::strong_ordering operator<=>(const SortKey& other) const {
+        if (prefix != other.prefix) return prefix <=> other.prefix;
+        for (int step = 2; step >= 1; --step)
+            if (const auto order = simplify(moved, step) <=> simplify(other.moved, step); order != 0) return order;
+        return row <=> other.row;
     }
-    return prefix;
+};
+
+/// Fills rows, prefix and index.
+template <int length>
+void put_in_order(const std::vector<RowBits<length>>& rows, SortedRows<length>& sorted, const Progress& progress) {
+    struct Numbered {
+        std::uint64_t prefix;
+        std::uint32_t index;
+    };
+    std::vector<Numbered> order;
+    for (const RowBits<length>& row : rows) {
+        if (order.size() % rows_between_checks == 0) progress.check();
+        order.push_back({coarse_prefix(shifted(row, sorted.shift)), static_cast<std::uint32_t>(order.size())});
+    }
+    std::uint32_t compared = 0;
+    std::ranges::sort(order, [&](const Numbered& a, const Numbered& b) {
+        if (++compared % (1u << 16u) == 0) progress.check();
+        if (a.prefix != b.prefix) return a.prefix < b.prefix;
+        return SortKey(rows[a.index], sorted.shift, 0) < SortKey(rows[b.index], sorted.shift, 0);
+    });
+    for (const Numbered& each : order) {
+        sorted.rows.push_back(rows[each.index]);
+        sorted.prefix.push_back(each.prefix);
+        sorted.index.push_back(each.index);
+    }
 }
 
 template <int length>
-SortedRows<length> sort_rows(const std::vector<RowBits<length>>& rows, const Progress& progress) {
-    constexpr std::size_t rows_between_checks = 1u << 14u;
-    std::vector<std::uint64_t> prefix(rows.size());
-    for (std::size_t index = 0; index < rows.size(); ++index) {
-        if (index % rows_between_checks == 0) progress.check();
-        prefix[index] = coarse_prefix(rows[index]);
+RowBits<length> key_of(const SortedRows<length>& sorted, std::uint32_t place, int step) {
+    return simplify(shifted(sorted.rows[place], sorted.shift), step);
+}
+
+template <int length>
+void find_groups(SortedRows<length>& sorted, int step, const Progress& progress) {
+    const auto which = static_cast<std::size_t>(step - 1);
+    for (std::uint32_t first = 0, end = 0; first < sorted.rows.size(); first = end) {
+        const RowBits<length> key = key_of(sorted, first, step);
+        Group group{{first, 0}, first};
+        for (; end < sorted.rows.size() && key_of(sorted, end, step) == key; ++end) {
+            if (end % rows_between_checks == 0) progress.check();
+            if (sorted.index[end] < sorted.index[group.best]) group.best = end;
+        }
+        group.range.count = end - first;
+        for (std::uint32_t place = first; place < end; ++place) sorted.groups[place][which] = group;
     }
-    SortedRows<length> sorted;
-    sorted.index.resize(rows.size());
-    std::iota(sorted.index.begin(), sorted.index.end(), 0u);
-    std::uint32_t compared = 0;
-    std::ranges::sort(sorted.index, [&](std::uint32_t a, std::uint32_t b) {
-        if (++compared % (1u << 16u) == 0) progress.check();
-        if (prefix[a] != prefix[b]) return prefix[a] < prefix[b];
-        for (int step = 2; step >= 1; --step)
-            if (const auto order = simplify(rows[a], step) <=> simplify(rows[b], step); order != 0) return order < 0;
-        return a < b;
-    });
-    constexpr std::size_t planes = std::tuple_size_v<RowPlanes<length>>;
-    sorted.up.assign(planes, std::vector<std::uint64_t>(rows.size() + lanes));
-    sorted.down = sorted.up;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        if (k % rows_between_checks == 0) progress.check();
-        sorted.prefix.push_back(prefix[sorted.index[k]]);
-        const RowBits<length>& row = rows[sorted.index[k]];
-        const auto up = planes_of(row), down = planes_of(reversed(row));
-        for (std::size_t plane = 0; plane < planes; ++plane) {
-            sorted.up[plane][k] = up[plane];
-            sorted.down[plane][k] = down[plane];
+}
+
+template <int length>
+void fill_blocks(SortedRows<length>& sorted, const Progress& progress) {
+    sorted.blocks = allocate_huge((sorted.rows.size() + lanes - 1) / lanes * block_words<length>);
+    for (std::size_t place = 0; place < sorted.rows.size(); ++place) {
+        if (place % rows_between_checks == 0) progress.check();
+        const RowBits<length>&up = sorted.rows[place], down = reversed(up);
+        std::uint32_t* lane = &sorted.blocks.words[place / lanes * block_words<length> + place % lanes];
+        for (std::size_t word = 0; word < length; ++word) {
+            lane[word * lanes] = up.words[word];
+            lane[(length + word) * lanes] = down.words[word];
         }
     }
-    return sorted;
+}
+
+/// A row in each lane, as rays one way meet it.
+template <int length>
+struct LaneRows {
+    std::array<Vector, length> words;
+    std::array<Vector, length + 1> first_from;  ///< the first set bit of this word and those behind it; else the end
+};
+
+/// The clear bits below the lowest set one: 32 where none is set.
+HWY_INLINE Vector clear_below(Vector bits) {
+    const Tag tag;
+    return hn::PopulationCount(hn::AndNot(bits, hn::Sub(bits, hn::Set(tag, 1))));
 }
 
 template <int length>
-DictionaryStep<length> make_step(const std::vector<RowBits<length>>& rows, const SortedRows<length>& sorted, int step,
-                                 const Progress& progress) {
-    std::vector<typename DictionaryStep<length>::Group> found;
-    for (std::uint32_t k = 0; k < sorted.index.size(); ++k) {
-        if (k % (1u << 14u) == 0) progress.check();
-        const RowBits<length> key = simplify(rows[sorted.index[k]], step);
-        if (found.empty() || found.back().key != key) found.push_back({key, {k, 0}, sorted.index[k]});
-        ++found.back().range.count;
-        found.back().lowest = std::min(found.back().lowest, sorted.index[k]);
-    }
-    DictionaryStep<length> made;
-    made.step = step;
-    made.groups.resize(std::bit_ceil(2 * found.size() + 1));
-    for (const auto& group : found) {
-        std::size_t at = made.place_of(group.key);
-        while (made.groups[at].range.count != 0) at = (at + 1) & (made.groups.size() - 1);
-        made.groups[at] = group;
-    }
-    return made;
-}
-
-/// The first set bit from `start` on of each lane's row; `end` where there is none.
-template <std::size_t planes>
-HWY_INLINE Vector next_set(const std::array<Vector, planes>& rows, std::uint32_t start, std::uint32_t end) {
+HWY_INLINE LaneRows<length> load_lanes(const std::uint32_t* words, std::uint32_t end) {
     const Tag tag;
-    Vector found = hn::Set(tag, end);
-    for (std::size_t k = planes; k-- > start / 64;) {
-        const std::uint64_t mask = k == start / 64 ? ~std::uint64_t{0} << (start % 64) : ~std::uint64_t{0};
-        const Vector bits = hn::And(rows[k], hn::Set(tag, mask));
-        const Vector below =
-            hn::AndNot(bits, hn::Sub(bits, hn::Set(tag, 1)));  // the clear bits under the lowest set one
-        const Vector place = hn::Add(hn::PopulationCount(below), hn::Set(tag, 64 * k));
-        found = hn::IfThenElse(hn::Eq(bits, hn::Zero(tag)), found, place);
+    LaneRows<length> rows;
+    rows.first_from[length] = hn::Set(tag, end);
+    for (std::size_t k = length; k-- > 0;) {
+        const Vector bits = rows.words[k] = hn::LoadU(tag, words + k * lanes);
+        const Vector place = hn::Add(clear_below(bits), hn::Set(tag, static_cast<std::uint32_t>(32 * k)));
+        rows.first_from[k] = hn::IfThenElse(hn::Eq(bits, hn::Zero(tag)), rows.first_from[k + 1], place);
     }
-    return found;
+    return rows;
 }
 
-/// Adds how many of the rays one way each lane's row answers differently. Ends early where all lanes reach `enough`.
-template <int length, std::size_t planes>
-HWY_INLINE Vector add_differing(Vector sum, const Probes<length>& probes, const std::array<Vector, planes>& rows,
-                                std::uint32_t end, Vector enough) {
+/// The first set bit from `start` on of each lane's row; the end where there is none.
+template <int length>
+HWY_INLINE Vector next_set(const LaneRows<length>& rows, std::uint32_t start) {
+    const Tag tag;
+    const std::uint32_t word = start / 32;
+    const Vector bits = hn::And(rows.words[word], hn::Set(tag, ~0u << (start % 32)));
+    const Vector place = hn::Add(clear_below(bits), hn::Set(tag, 32 * word));
+    return hn::IfThenElse(hn::Eq(bits, hn::Zero(tag)), rows.first_from[word + 1], place);
+}
+
+/// light_weight of each lane.
+template <int length>
+HWY_INLINE Vector light_weights(Vector free_voxels) {
+    const Vector cube = hn::Mul(hn::Mul(free_voxels, free_voxels), free_voxels);
+    return hn::ShiftRight<light_weight_shift<length>>(cube);
+}
+
+/// Adds how many of the lights one way each lane's row answers differently. Ends early where all lanes exceed `most`.
+template <int length>
+HWY_INLINE Vector add_differing(Vector sum, const Probes<length>& probes, const LaneRows<length>& rows, Vector most) {
     const Tag tag;
     for (std::size_t k = 0; k < probes.count; ++k) {
-        if (hn::AllTrue(tag, hn::Eq(hn::Max(sum, enough), sum))) break;
-        const Vector ours = next_set(rows, probes.probes[k].start, end);
-        const Vector right = hn::Set(tag, probes.probes[k].blocker);
+        if (hn::AllTrue(tag, hn::Gt(sum, most))) break;
+        const Probe& probe = probes.probes[k];
+        const Vector free_voxels = hn::Sub(next_set(rows, probe.start), hn::Set(tag, probe.start));
+        const Vector ours = light_weights<length>(free_voxels), right = hn::Set(tag, probe.lights);
         sum = hn::Add(sum, hn::Sub(hn::Max(ours, right), hn::Min(ours, right)));
     }
     return sum;
@@ -122,60 +160,83 @@ HWY_INLINE Vector add_differing(Vector sum, const Probes<length>& probes, const 
 }  // namespace
 
 template <int length>
-DictionarySearch<length> make_search(const std::vector<RowBits<length>>& rows, int resolution, int threads,
-                                     Progress& progress) {
-    DictionarySearch<length> search{rows, resolution, sort_rows(rows, progress), {}};
-    search.steps.resize(coarsest_step);
-    parallel_for(coarsest_step, threads, [&](std::int64_t k) {
-        search.steps[static_cast<std::size_t>(k)] = make_step(rows, search.sorted, static_cast<int>(k) + 1, progress);
-        progress.advance();
+SortedRows<length> sort_rows(const std::vector<RowBits<length>>& rows, int shift, int threads, Progress& progress) {
+    SortedRows<length> sorted;
+    sorted.shift = shift;
+    put_in_order(rows, sorted, progress);
+    sorted.groups.resize(rows.size());
+    parallel_for(coarsest_step + 1, threads, [&](std::int64_t step) {
+        if (step == 0)
+            fill_blocks(sorted, progress);
+        else
+            find_groups(sorted, static_cast<int>(step), progress);
     });
-    return search;
+    return sorted;
+}
+
+template <int length>
+std::uint32_t place_among(const SortedRows<length>& sorted, Range within, const RowBits<length>& row) {
+    const SortKey<length> key(row, sorted.shift);
+    // Halves without branches, which nobody could foretell.
+    std::uint32_t first = within.first;
+    for (std::uint32_t count = within.count; count > 0;) {
+        const std::uint32_t half = (count + 1) / 2;
+        first += sorted.prefix[first + half - 1] < key.prefix ? half : 0;
+        count -= half;
+    }
+    const std::uint32_t end = within.first + within.count;
+    const auto before = [&](std::uint32_t place) {
+        if (sorted.prefix[place] != key.prefix) return sorted.prefix[place] < key.prefix;
+        return SortKey(sorted.rows[place], sorted.shift, key.prefix) < key;
+    };
+    if (first == end || !before(first)) return first;
+    const auto places = std::views::iota(first, end);  // several rows have this prefix
+    return first + static_cast<std::uint32_t>(std::ranges::partition_point(places, before) - places.begin());
+}
+
+template <int length>
+const Group* find_group(const SortedRows<length>& sorted, const RowBits<length>& row, std::uint32_t place, int step) {
+    const RowBits<length> key = simplify(shifted(row, sorted.shift), step);
+    const auto which = static_cast<std::size_t>(step - 1);
+    if (place < sorted.rows.size() && key_of(sorted, place, step) == key) return &sorted.groups[place][which];
+    if (place > 0 && key_of(sorted, place - 1, step) == key) return &sorted.groups[place - 1][which];
+    return nullptr;
 }
 
 template <int length>
 Match nearest_in(const SortedRows<length>& sorted, Range range, const RowBits<length>& row,
                  const RowProbes<length>& probes, Match best) {
-    constexpr std::size_t planes = std::tuple_size_v<RowPlanes<length>>;
-    constexpr unsigned voxel_bits = 16;
     const Tag tag;
-    const RowPlanes<length> own = planes_of(row);
-    std::uint64_t least = std::uint64_t{best.distance.rays} << voxel_bits | best.distance.voxels;
-    for (std::uint32_t first = range.first; first < range.first + range.count; first += lanes) {
-        std::array<Vector, planes> up, down;
+    for (std::size_t first = range.first / lanes * lanes; first < range.first + range.count; first += lanes) {
+        const std::uint32_t* block = &sorted.blocks.words[first / lanes * block_words<length>];
+        const Vector most = hn::Set(tag, best.distance.lights);
+        const LaneRows<length> up = load_lanes<length>(block, probes.up_end);
+        Vector lights = add_differing(hn::Zero(tag), probes.up, up, most);
+        if (hn::AllTrue(tag, hn::Gt(lights, most))) continue;
+        const LaneRows<length> down = load_lanes<length>(block + length * lanes, probes.down_end);
+        lights = add_differing(lights, probes.down, down, most);
+        if (hn::AllTrue(tag, hn::Gt(lights, most))) continue;
         Vector voxels = hn::Zero(tag);
-        for (std::size_t k = 0; k < planes; ++k) {
-            up[k] = hn::LoadU(tag, &sorted.up[k][first]);
-            down[k] = hn::LoadU(tag, &sorted.down[k][first]);
-            voxels = hn::Add(voxels, hn::PopulationCount(hn::Xor(up[k], hn::Set(tag, own[k]))));
-        }
-        const Vector enough = hn::Set(tag, (least >> voxel_bits) + 1);
-        Vector rays = add_differing<length>(hn::Zero(tag), probes.up, up, probes.up_end, enough);
-        rays = add_differing<length>(rays, probes.down, down, probes.down_end, enough);
-        alignas(64) std::array<std::uint64_t, lanes> distance;
-        hn::Store(hn::Or(hn::ShiftLeft<voxel_bits>(rays), voxels), tag, distance.data());
-        for (std::uint32_t lane = 0; lane < lanes; ++lane) {
-            if (distance[lane] >= least || first + lane >= range.first + range.count) continue;
-            least = distance[lane];
-            best.index = sorted.index[first + lane];
-        }
+        for (std::size_t k = 0; k < length; ++k)
+            voxels = hn::Add(voxels, hn::PopulationCount(hn::Xor(up.words[k], hn::Set(tag, row.words[k]))));
+        alignas(64) std::array<std::uint32_t, lanes> lane_lights, lane_voxels;
+        hn::Store(lights, tag, lane_lights.data());
+        hn::Store(voxels, tag, lane_voxels.data());
+        const std::size_t begin = std::max<std::size_t>(range.first, first);
+        const std::size_t end = std::min<std::size_t>(range.first + range.count, first + lanes);
+        for (std::size_t k = begin; k < end; ++k)
+            if (const Distance distance{lane_lights[k - first], lane_voxels[k - first]}; distance < best.distance)
+                best = {static_cast<std::uint32_t>(k), distance};
     }
-    best.distance = {static_cast<std::uint32_t>(least >> voxel_bits),
-                     static_cast<std::uint32_t>(least & ((1u << voxel_bits) - 1))};
     return best;
 }
 
-template <int length>
-std::uint32_t place_among(const SortedRows<length>& sorted, const RowBits<length>& row) {
-    const auto place = std::ranges::lower_bound(sorted.prefix, coarse_prefix(row));
-    return static_cast<std::uint32_t>(place - sorted.prefix.begin());
-}
-
-#define SIGHTLINES_FOR_ROW_LENGTH(length)                                                                         \
-    template DictionarySearch<length> make_search(const std::vector<RowBits<length>>&, int, int, Progress&);      \
+#define SIGHTLINES_FOR_ROW_LENGTH(length)                                                                          \
+    template SortedRows<length> sort_rows(const std::vector<RowBits<length>>&, int, int, Progress&);               \
+    template std::uint32_t place_among(const SortedRows<length>&, Range, const RowBits<length>&);                        \
+    template const Group* find_group(const SortedRows<length>&, const RowBits<length>&, std::uint32_t, int);       \
     template Match nearest_in(const SortedRows<length>&, Range, const RowBits<length>&, const RowProbes<length>&, \
-                              Match);                                                                             \
-    template std::uint32_t place_among(const SortedRows<length>&, const RowBits<length>&);
+                              Match);
 SIGHTLINES_FOR_ROW_LENGTH(1)
 SIGHTLINES_FOR_ROW_LENGTH(2)
 SIGHTLINES_FOR_ROW_LENGTH(4)

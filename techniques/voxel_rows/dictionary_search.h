@@ -1,9 +1,9 @@
 // Wang 2017, Algorithm 2, lines 4 to 11: the dictionary, down-sampled, and the search for a row in it.
 #pragma once
 
-#include <optional>
 #include <vector>
 
+#include "techniques/base/huge_buffer.h"
 #include "techniques/base/progress.h"
 #include "techniques/voxel_rows/row_probes.h"
 
@@ -11,73 +11,62 @@ namespace sightlines::voxel_rows {
 
 constexpr int coarsest_step = 5;  ///< down-sampled by 32
 
-/// How far a row of the dictionary is from another one: rays first, then voxels.
+/// How far a row of the dictionary is from another one: by what it answers differently first, then voxels.
 struct Distance {
-    std::uint32_t rays = 0, voxels = 0;
+    std::uint32_t lights = 0;  ///< differing_lights
+    std::uint32_t voxels = 0;
 
     auto operator<=>(const Distance&) const = default;
 };
-
-/// A row of the dictionary for another one.
-struct Match {
-    std::uint32_t index = 0;
-    Distance distance;
-};
+constexpr Distance farthest{~0u, ~0u};
 
 /// Some rows of the dictionary that lie together in SortedRows.
 struct Range {
     std::uint32_t first = 0, count = 0;
 };
 
-/// The dictionary's rows in an order in which those that are alike when down-sampled lie together, for every step at
-/// once, and what they are for the search: bit planes, so that many are compared together.
+/// A row of the dictionary for another one.
+struct Match {
+    std::uint32_t place = 0;  ///< in SortedRows
+    Distance distance;
+};
+
+/// Rows of the dictionary that are alike after some step.
+struct Group {
+    Range range;
+    std::uint32_t best = 0;  ///< the place of the most frequent one
+};
+
+/// The dictionary's rows in an order in which those that are alike when shifted and down-sampled lie together, for every
+/// step at once.
 template <int length>
 struct SortedRows {
-    std::vector<std::uint32_t> index;                  ///< in the dictionary
-    std::vector<std::uint64_t> prefix;                 ///< what the rows are sorted by first: their coarse steps
-    std::vector<std::vector<std::uint64_t>> up, down;  ///< [planes][rows, padded by a vector]; down: reversed rows
+    int shift = 0;
+    std::vector<RowBits<length>> rows;
+    std::vector<std::uint64_t> prefix;                     ///< coarse_prefix of each, shifted
+    std::vector<std::uint32_t> index;                      ///< of each in the dictionary
+    std::vector<std::array<Group, coarsest_step>> groups;  ///< each row's own after step 1, 2 ...
+    /// For comparing many at once: [blocks of as many rows as a vector has lanes][up, down][length][lane]; down is the
+    /// reversed row.
+    HugeBuffer blocks;
 };
 
-/// Rows of the dictionary that are alike down-sampled by 2^step, found by what they are then.
+/// `rows`: of the dictionary, the most frequent first.
 template <int length>
-struct DictionaryStep {
-    struct Group {
-        RowBits<length> key;
-        Range range;               ///< of SortedRows; count 0: a free place
-        std::uint32_t lowest = 0;  ///< index of the most frequent row
-    };
-    int step = 0;
-    std::vector<Group> groups;  ///< open addressing by hash_row(key), a power of two
+SortedRows<length> sort_rows(const std::vector<RowBits<length>>& rows, int shift, int threads, Progress& progress);
 
-    std::size_t place_of(const RowBits<length>& key) const { return hash_row(key) & (groups.size() - 1); }
-    /// The group of `key`, or a free place.
-    const Group& find(const RowBits<length>& key) const {
-        std::size_t at = place_of(key);
-        while (groups[at].range.count != 0 && groups[at].key != key) at = (at + 1) & (groups.size() - 1);
-        return groups[at];
-    }
-};
-
+/// Where `row` is among the sorted ones, or would be: in `within`, or at its end.
 template <int length>
-struct DictionarySearch {
-    const std::vector<RowBits<length>>& rows;  ///< of the dictionary, most frequent first
-    int resolution = 0;
-    SortedRows<length> sorted;
-    std::vector<DictionaryStep<length>> steps;  ///< [coarsest_step], the first down-sampled by 2
-};
+std::uint32_t place_among(const SortedRows<length>& sorted, Range within, const RowBits<length>& row);
 
+/// The group of those that `row`, whose place is given, matches after `step`; null where there is none.
 template <int length>
-DictionarySearch<length> make_search(const std::vector<RowBits<length>>& rows, int resolution, int threads,
-                                     Progress& progress);
+const Group* find_group(const SortedRows<length>& sorted, const RowBits<length>& row, std::uint32_t place, int step);
 
 /// The nearest to a row (whose probes are given) among some rows of the dictionary, the first of equals; `best` where
 /// none is nearer.
 template <int length>
 Match nearest_in(const SortedRows<length>& sorted, Range range, const RowBits<length>& row,
                  const RowProbes<length>& probes, Match best);
-
-/// Where a row would lie among the sorted ones, by its coarse steps.
-template <int length>
-std::uint32_t place_among(const SortedRows<length>& sorted, const RowBits<length>& row);
 
 }  // namespace sightlines::voxel_rows

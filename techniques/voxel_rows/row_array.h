@@ -37,8 +37,7 @@ struct RowDictionary {
     std::uint64_t distinct_rows = 0;         ///< of the array before
     std::vector<std::uint64_t> rows_mapped;  ///< [steps] rows of the array that each step has mapped
     std::uint64_t rows_left_over = 0;        ///< that no step has
-    double differing_share =
-        0.0;  ///< of the rays of all rows: those answered differently (dictionary.h, differing_rays)
+    double differing_share = 0.0;  ///< of the lights of all rows: those answered differently (differing_lights)
     double seconds = 0.0;
 };
 

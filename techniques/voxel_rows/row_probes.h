@@ -1,4 +1,4 @@
-// How differently two rows answer the rays that matter: those that leave a surface of the first.
+// How differently two rows answer the rays that matter: those that leave a surface of the first towards lights.
 #pragma once
 
 #include "techniques/voxel_rows/row_bits.h"
@@ -40,9 +40,20 @@ std::uint32_t next_set(const std::array<std::uint64_t, count>& planes, std::uint
     return end;
 }
 
-/// Rays that start at one voxel and end in any of the voxels from there to the end of the row.
+template <int length>
+constexpr int light_weight_shift = length > 4 ? 3 : 0;  ///< so that all of a row's lights can be counted in 32 bits
+
+/// How many lights a ray reaches that passes so many free voxels. Where lights are spread evenly through space, as many
+/// stand in a cone as its volume is: the cube of its length.
+template <int length>
+std::uint32_t light_weight(std::uint32_t free_voxels) {
+    return free_voxels * free_voxels * free_voxels >> light_weight_shift<length>;
+}
+
+/// Rays that start at one voxel and end at lights in any of the voxels from there to the end of the row.
 struct Probe {
-    std::uint32_t start, blocker;  ///< blocker: the first set voxel on the way; the row's end where there is none
+    std::uint32_t start;
+    std::uint32_t lights;  ///< light_weight of the voxels before the first set one, or before the row's end
 };
 
 /// The rays that leave a row's surfaces one way. They start one and two voxels beyond the surface's own, as those that
@@ -63,7 +74,8 @@ Probes<length> probes_of(const RowBits<length>& row, std::uint32_t end) {
         const std::uint64_t one_back = planes[k] << 1u | before >> 63u, two_back = planes[k] << 2u | before >> 62u;
         for (std::uint64_t starts = (one_back | two_back) & ~planes[k]; starts != 0; starts &= starts - 1) {
             const auto start = static_cast<std::uint32_t>(64 * k + std::countr_zero(starts));
-            if (start < end) made.probes[made.count++] = {start, next_set(planes, start, end)};
+            if (start >= end) continue;
+            made.probes[made.count++] = {start, light_weight<length>(next_set(planes, start, end) - start)};
         }
         before = planes[k];
     }
@@ -82,23 +94,24 @@ struct RowProbes {
           down(probes_of(reversed(row), down_end)),
           up_end(static_cast<std::uint32_t>(resolution)) {}
 
-    /// How many rays there are in all.
-    std::uint32_t rays() const {
-        std::uint32_t sum = 0;
-        for (std::size_t k = 0; k < up.count; ++k) sum += up_end - up.probes[k].start;
-        for (std::size_t k = 0; k < down.count; ++k) sum += down_end - down.probes[k].start;
+    /// How many lights there are in all.
+    std::uint64_t lights() const {
+        std::uint64_t sum = 0;
+        for (std::size_t k = 0; k < up.count; ++k) sum += light_weight<length>(up_end - up.probes[k].start);
+        for (std::size_t k = 0; k < down.count; ++k) sum += light_weight<length>(down_end - down.probes[k].start);
         return sum;
     }
 };
 
-/// How many of the rays another row answers differently: for each start, the voxels between the first blockers.
+/// How many of the lights another row answers differently: for each start, those between the first blockers.
 template <int length>
-std::uint32_t differing_rays(const RowProbes<length>& probes, const RowBits<length>& other) {
+std::uint32_t differing_lights(const RowProbes<length>& probes, const RowBits<length>& other) {
     const auto differing = [](const Probes<length>& way, const RowPlanes<length>& planes, std::uint32_t end) {
         std::uint32_t sum = 0;
         for (std::size_t k = 0; k < way.count; ++k) {
-            const std::uint32_t blocker = next_set(planes, way.probes[k].start, end);
-            sum += std::max(blocker, way.probes[k].blocker) - std::min(blocker, way.probes[k].blocker);
+            const Probe& probe = way.probes[k];
+            const auto lights = light_weight<length>(next_set(planes, probe.start, end) - probe.start);
+            sum += std::max(lights, probe.lights) - std::min(lights, probe.lights);
         }
         return sum;
     };

@@ -10,7 +10,7 @@
 #include "techniques/base/error.h"
 #include "techniques/voxel_rows/dictionary_search.h"
 #include "techniques/voxel_rows/query.h"
-#include "techniques/voxel_rows/row_histogram.h"
+#include "techniques/voxel_rows/row_deals.h"
 #include "techniques/voxel_rows/voxel_rows.h"
 #include "tests/voxel_rows/scenes.h"
 
@@ -190,8 +190,8 @@ TEST_P(Dictionary, FindsARowNoFurtherAwayThanThePapers) {
         EXPECT_LT(nearest.dictionary.differing_share, random.dictionary.differing_share);
         for (const std::uint32_t row : real_rows(array.grid)) {
             const Row bits = row_of(array, row);
-            ASSERT_LE(differing_rays(bits, row_of(nearest, row), GetParam()),
-                      differing_rays(bits, row_of(random, row), GetParam()));
+            ASSERT_LE(differing_lights(bits, row_of(nearest, row), GetParam()),
+                      differing_lights(bits, row_of(random, row), GetParam()));
         }
     }
 }
@@ -251,7 +251,7 @@ TEST(RowHistogram, CountsAsAMapDoesWhateverTheParts) {
     }
 }
 
-TEST(DictionaryMeasure, CountsTheRaysFromSurfacesThatTheOtherRowAnswersDifferently) {
+TEST(DictionaryMeasure, CountsTheLightsThatTheOtherRowAnswersDifferentlyFromSurfaces) {
     for (std::uint32_t k = 0; k < 3000; ++k) {
         const int resolution = 33 + static_cast<int>(random_u32(1, k, 0) % 60u);
         Row a(resolution <= 64 ? 2 : 4), b(a.size());
@@ -273,42 +273,124 @@ TEST(DictionaryMeasure, CountsTheRaysFromSurfacesThatTheOtherRowAnswersDifferent
                 };
                 if (set(a, u) || !(set_behind(1) || set_behind(2))) continue;
                 bool blocked_a = false, blocked_b = false;
-                for (int end = u; end >= 0 && end < resolution; end += way) {
+                std::uint32_t far = 0;
+                for (int end = u; end >= 0 && end < resolution; end += way, ++far) {
                     blocked_a |= set(a, end);
                     blocked_b |= set(b, end);
-                    differing += blocked_a != blocked_b;
+                    if (blocked_a != blocked_b) differing += (far + 1) * (far + 1) * (far + 1) - far * far * far;
                 }
             }
         }
-        ASSERT_EQ(differing_rays(a, b, resolution), differing) << "row " << k;
-        ASSERT_EQ(differing_rays(a, a, resolution), 0u);
+        ASSERT_EQ(differing_lights(a, b, resolution), differing) << "row " << k;
+        ASSERT_EQ(differing_lights(a, a, resolution), 0u);
     }
 }
 
-TEST(DictionaryMeasure, IsTheSameForManyRowsAtOnce) {
-    std::vector<RowBits<8>> rows(300);
-    for (std::uint32_t k = 0; k < rows.size(); ++k)
+std::vector<RowBits<8>> random_rows(std::uint32_t count) {
+    std::vector<RowBits<8>> rows(count);
+    for (std::uint32_t k = 0; k < count; ++k)
         for (std::uint32_t bit = 0; bit < 200; ++bit)
             if (random_unit(5, k, bit) < 0.05f) rows[k].words[bit / 32] |= 1u << (bit % 32);
+    return rows;
+}
+
+TEST(DictionaryMeasure, IsTheSameForManyRowsAtOnce) {
+    const std::vector<RowBits<8>> rows = random_rows(300);
     Progress progress;
-    const DictionarySearch<8> search = make_search(rows, 200, 1, progress);
+    const SortedRows<8> sorted = sort_rows(rows, 0, 1, progress);
     for (std::uint32_t k = 0; k < rows.size(); k += 3) {
         RowBits<8> row = rows[k];
         row.words[k % 6] ^= 1u << (k % 32);
         const RowProbes<8> probes(row, 200);
         for (std::uint32_t first = 0; first < rows.size(); first += 37) {
             const Range range{first, std::min(50u, static_cast<std::uint32_t>(rows.size()) - first)};
-            Match expected{0, {~0u >> 1u, 0}};
+            Match expected{0, farthest};
             for (std::uint32_t j = range.first; j < range.first + range.count; ++j) {
-                const std::uint32_t index = search.sorted.index[j];
-                const Distance distance{differing_rays(probes, rows[index]), differing_voxels(row, rows[index])};
-                if (distance < expected.distance) expected = {index, distance};
+                const RowBits<8>& other = sorted.rows[j];
+                const Distance distance{differing_lights(probes, other), differing_voxels(row, other)};
+                if (distance < expected.distance) expected = {j, distance};
             }
-            const Match found = nearest_in(search.sorted, range, row, probes, {0, {~0u >> 1u, 0}});
-            ASSERT_EQ(found.index, expected.index);
+            const Match found = nearest_in(sorted, range, row, probes, {0, farthest});
+            ASSERT_EQ(found.place, expected.place);
             ASSERT_EQ(found.distance, expected.distance);
         }
     }
+}
+
+TEST(DictionarySearch, FindsEveryRowAndAllThatMatchItDownSampled) {
+    std::vector<RowBits<8>> rows = random_rows(300);
+    for (std::uint32_t k = 0; k < 300; ++k) {  // alike after every step; then after the second
+        rows.push_back(rows[k]);
+        rows.back().words[0] ^= 2;
+    }
+    Progress progress;
+    for (const int shift : {0, 4}) {
+        const SortedRows<8> sorted = sort_rows(rows, shift, 2, progress);
+        const Range all{0, static_cast<std::uint32_t>(rows.size())};
+        for (std::uint32_t k = 0; k < rows.size(); ++k) {
+            const std::uint32_t place = place_among(sorted, all, rows[k]);
+            ASSERT_LT(place, rows.size());
+            ASSERT_EQ(sorted.rows[place], rows[k]);
+            RowBits<8> other = rows[k];  // one that is not there
+            other.words[3] ^= 1u << (k % 32);
+            for (int step = 1; step <= coarsest_step; ++step) {
+                const auto key = simplify(shifted(other, shift), step);
+                std::uint32_t matching = 0, best = ~0u;
+                for (std::uint32_t j = 0; j < rows.size(); ++j) {
+                    if (simplify(shifted(rows[j], shift), step) != key) continue;
+                    ++matching;
+                    best = std::min(best, j);
+                }
+                const Group* group = find_group(sorted, other, place_among(sorted, all, other), step);
+                ASSERT_EQ(group == nullptr ? 0u : group->range.count, matching) << k << ' ' << step;
+                if (group == nullptr) continue;
+                ASSERT_EQ(sorted.index[group->best], best);
+            }
+        }
+    }
+}
+
+TEST(RowDeals, HoldEveryDistinctRowOnceInTheOrderOfTheirPrefixes) {
+    std::vector<DistinctRows<4>> parts(3);
+    for (std::uint32_t k = 0; k < 100'000; ++k) {
+        DistinctRows<4>& part = parts[k % 3];
+        part.rows.push_back({{random_u32(7, k, 0), 0, random_u32(7, k, 1) & random_u32(7, k, 2), k}});
+        part.counts.push_back(k % 5);
+    }
+    parts[1].first_id = static_cast<std::uint32_t>(parts[0].rows.size());
+    parts[2].first_id = parts[1].first_id + static_cast<std::uint32_t>(parts[1].rows.size());
+    Progress progress;
+    const RowDeals<4> dealt = deal_rows(parts, 2, progress);
+    EXPECT_GT(dealt.deals(), 2u);
+    const auto expect_in_order = [](const RowDeals<4>& deals, int shift) {
+        for (std::size_t deal = 0; deal < deals.deals(); ++deal) {
+            for (std::size_t place = deals.first[deal]; place < deals.first[deal + 1]; ++place) {
+                const std::uint64_t prefix = coarse_prefix(shifted(deals[place].row, shift));
+                ASSERT_GE(prefix, deal > 0 ? deals.cuts[deal - 1] : 0);
+                ASSERT_LT(prefix, deal < deals.cuts.size() ? deals.cuts[deal] : ~std::uint64_t{0});
+            }
+        }
+    };
+    std::vector<bool> seen(100'000);
+    for (std::size_t place = 0; place < dealt.rows(); ++place) {
+        const DealtRow<4> row = dealt[place];
+        const std::uint32_t k = row.row.words[3];
+        ASSERT_FALSE(seen[k]);
+        seen[k] = true;
+        ASSERT_EQ(row.row, parts[k % 3].rows[k / 3]);
+        ASSERT_EQ(row.count, k % 5);
+        ASSERT_EQ(row.id, parts[k % 3].first_id + k / 3);
+        dealt.distance(place) = k % 2;
+    }
+    ASSERT_EQ(dealt.rows(), seen.size());
+    expect_in_order(dealt, 0);
+    const RowDeals<4> again = deal_again(dealt, 4, 2, progress);
+    ASSERT_EQ(again.rows(), 50'000u);
+    for (std::size_t place = 0; place < again.rows(); ++place) {
+        ASSERT_EQ(again[place].distance, 1u);
+        ASSERT_EQ(again[place].row.words[3] % 2, 1u);
+    }
+    expect_in_order(again, 4);
 }
 
 TEST(DictionaryBuild, StopsWhenCancelled) {

@@ -1,0 +1,112 @@
+#include "techniques/voxel_rows/row_deals.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "techniques/base/parallel.h"
+
+namespace sightlines::voxel_rows {
+namespace {
+
+constexpr std::size_t most_deals = 1024;
+constexpr std::size_t rows_per_deal = 32768;  ///< at least, on average
+constexpr std::size_t samples_per_deal = 64;
+
+/// Where one deal ends and the next begins: prefixes that cut the sampled ones into equal shares, ascending.
+std::vector<std::uint64_t> find_cuts(std::vector<std::uint64_t> sample, std::size_t deals) {
+    std::ranges::sort(sample);
+    std::vector<std::uint64_t> cuts;
+    for (std::size_t deal = 1; deal < deals && !sample.empty(); ++deal)
+        cuts.push_back(sample[deal * sample.size() / deals]);
+    cuts.erase(std::ranges::unique(cuts).begin(), cuts.end());
+    return cuts;
+}
+
+/// Where rows come from: visit(source, take) calls take(row) for each row of one of the sources.
+template <class Visit>
+struct Sources {
+    std::size_t count;
+    std::size_t rows;  ///< of all, at most
+    const Visit& visit;
+};
+
+template <int length, class Visit>
+RowDeals<length> deal_out(const Sources<Visit>& sources, int shift, int threads, Progress& progress) {
+    progress.begin("dealing out distinct rows", 3 * static_cast<std::int64_t>(sources.count));
+    const auto visit_all = [&](const auto& take) {
+        parallel_for(static_cast<std::int64_t>(sources.count), threads, [&](std::int64_t index) {
+            const auto source = static_cast<std::size_t>(index);
+            sources.visit(source, [&](const DealtRow<length>& row) { take(source, row); });
+            progress.advance();
+        });
+    };
+    const auto prefix_of = [&](const RowBits<length>& row) { return coarse_prefix(shifted(row, shift)); };
+
+    const std::size_t most = std::min(sources.rows / rows_per_deal + 1, most_deals);
+    const std::size_t sampled = std::bit_floor(sources.rows / (most * samples_per_deal) + 1) - 1;
+    std::vector<std::vector<std::uint64_t>> sample(sources.count);
+    visit_all([&](std::size_t source, const DealtRow<length>& row) {
+        if ((hash_row(row.row) & sampled) == 0) sample[source].push_back(prefix_of(row.row));
+    });
+    std::vector<std::uint64_t> prefixes;
+    for (const auto& of_source : sample) prefixes.insert(prefixes.end(), of_source.begin(), of_source.end());
+    RowDeals<length> dealt;
+    dealt.cuts = find_cuts(std::move(prefixes), most);
+
+    const std::size_t deals = dealt.cuts.size() + 1;
+    const auto deal_of = [&](const RowBits<length>& row) {
+        return static_cast<std::size_t>(std::ranges::upper_bound(dealt.cuts, prefix_of(row)) - dealt.cuts.begin());
+    };
+    std::vector<std::uint32_t> places(sources.count * deals);
+    visit_all([&](std::size_t source, const DealtRow<length>& row) { ++places[source * deals + deal_of(row.row)]; });
+    std::uint32_t place = 0;
+    for (std::size_t deal = 0; deal < deals; ++deal) {
+        dealt.first.push_back(place);
+        for (std::size_t source = 0; source < sources.count; ++source)
+            place += std::exchange(places[source * deals + deal], place);
+    }
+    dealt.first.push_back(place);
+    dealt.words = allocate_huge(std::size_t{place} * dealt.stride);
+    visit_all([&](std::size_t source, const DealtRow<length>& row) {
+        std::uint32_t* to = &dealt.words.words[places[source * deals + deal_of(row.row)]++ * dealt.stride];
+        to = std::ranges::copy(row.row.words, to).out;
+        *to++ = row.count;
+        *to++ = row.id;
+        *to = row.distance;
+    });
+    return dealt;
+}
+
+}  // namespace
+
+template <int length>
+RowDeals<length> deal_rows(std::vector<DistinctRows<length>> parts, int threads, Progress& progress) {
+    std::size_t rows = 0;
+    for (const DistinctRows<length>& part : parts) rows += part.rows.size();
+    const auto visit = [&](std::size_t index, const auto& take) {
+        const DistinctRows<length>& part = parts[index];
+        for (std::uint32_t k = 0; k < part.rows.size(); ++k)
+            take(DealtRow<length>{part.rows[k], part.counts[k], part.first_id + k, 0});
+    };
+    return deal_out<length>(Sources<decltype(visit)>{parts.size(), rows, visit}, 0, threads, progress);
+}
+
+template <int length>
+RowDeals<length> deal_again(const RowDeals<length>& dealt, int shift, int threads, Progress& progress) {
+    const auto visit = [&](std::size_t deal, const auto& take) {
+        for (std::size_t place = dealt.first[deal]; place < dealt.first[deal + 1]; ++place)
+            if (const DealtRow<length> row = dealt[place]; row.distance != 0) take(row);
+    };
+    return deal_out<length>(Sources<decltype(visit)>{dealt.deals(), dealt.rows(), visit}, shift, threads, progress);
+}
+
+#define SIGHTLINES_FOR_ROW_LENGTH(length)                                                        \
+    template RowDeals<length> deal_rows(std::vector<DistinctRows<length>>, int, Progress&); \
+    template RowDeals<length> deal_again(const RowDeals<length>&, int, int, Progress&);
+SIGHTLINES_FOR_ROW_LENGTH(1)
+SIGHTLINES_FOR_ROW_LENGTH(2)
+SIGHTLINES_FOR_ROW_LENGTH(4)
+SIGHTLINES_FOR_ROW_LENGTH(8)
+#undef SIGHTLINES_FOR_ROW_LENGTH
+
+}  // namespace sightlines::voxel_rows

@@ -1,0 +1,70 @@
+// The distinct rows of an array in an order in which rows that are alike down-sampled come together.
+#pragma once
+
+#include "techniques/voxel_rows/row_histogram.h"
+
+namespace sightlines::voxel_rows {
+
+/// The row moved up by `shift` voxels, 0 to 31; what leaves it is lost. Rows are down-sampled in two ways, as they are
+/// and moved by half of what becomes one voxel, so that a surface at the edge of a coarse voxel in one is in the middle of
+/// another in the other.
+template <int length>
+RowBits<length> shifted(const RowBits<length>& row, int shift) {
+    if (shift == 0) return row;
+    RowBits<length> moved;
+    for (std::size_t k = 0; k < length; ++k) {
+        const std::uint32_t below = k > 0 ? row.words[k - 1] : 0;
+        moved.words[k] = row.words[k] << shift | below >> (32 - shift);
+    }
+    return moved;
+}
+
+/// The row down-sampled by 32, 16 and 8, one after another from the top: rows that are alike after any of these steps
+/// lie together where rows are sorted by it.
+template <int length>
+std::uint64_t coarse_prefix(const RowBits<length>& row) {
+    static_assert(length * (1 + 2 + 4) <= 64);
+    std::uint64_t prefix = 0;
+    for (const std::uint32_t word : simplify(row, 5).words) prefix = prefix << 1u | word;
+    for (const std::uint32_t word : simplify(row, 4).words) prefix = prefix << 2u | (word & 1u) << 1u | word >> 16u;
+    // Bits 0, 8, 16 and 24 move to 31, 30, 29 and 28; no two of the sixteen terms meet.
+    constexpr std::uint32_t gather = 1u << 31u | 1u << 22u | 1u << 13u | 1u << 4u;
+    for (const std::uint32_t word : simplify(row, 3).words) prefix = prefix << 4u | word * gather >> 28u;
+    return prefix;
+}
+
+/// A distinct row, how often it occurs, its id in the histogram, and how far the dictionary's row for it is from it.
+template <int length>
+struct DealtRow {
+    RowBits<length> row;
+    std::uint32_t count, id, distance;
+};
+
+/// Distinct rows in deals that ascend by coarse_prefix of the shifted row: each deal is small enough for a processor's own
+/// cache, unless too many rows have one prefix.
+template <int length>
+struct RowDeals {
+    static constexpr std::size_t stride = static_cast<std::size_t>(length) + 3;
+    HugeBuffer words;                ///< [rows][stride]: bits, count, id, distance
+    std::vector<std::size_t> first;  ///< [deals + 1]; the last is the number of rows
+    /// [deals - 1] ascending: deal d holds the prefixes below cuts[d] that are in no deal before.
+    std::vector<std::uint64_t> cuts;
+
+    std::size_t deals() const { return first.size() - 1; }
+    std::size_t rows() const { return first.back(); }
+    DealtRow<length> operator[](std::size_t place) const {
+        const std::uint32_t* from = &words.words[place * stride];
+        return {load_row<length>(from), from[length], from[length + 1], from[length + 2]};
+    }
+    std::uint32_t& distance(std::size_t place) const { return words.words[place * stride + stride - 1]; }
+};
+
+/// Takes the rows out of the histogram's parts; distances are 0. The same for any number of threads.
+template <int length>
+RowDeals<length> deal_rows(std::vector<DistinctRows<length>> parts, int threads, Progress& progress);
+
+/// Deals those out again whose distance is not 0, shifted by `shift`.
+template <int length>
+RowDeals<length> deal_again(const RowDeals<length>& dealt, int shift, int threads, Progress& progress);
+
+}  // namespace sightlines::voxel_rows
