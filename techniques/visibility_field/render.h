@@ -1,0 +1,112 @@
+// Algorithm 2: environment light by rays, of which the field discards those whose answer it knows.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "shaders/harmonic_light_data.h"
+#include "techniques/base/image.h"
+#include "techniques/base/progress.h"
+#include "techniques/rays/embree_scene.h"
+#include "techniques/scene/harmonics.h"
+#include "techniques/scene/surface_buffer.h"
+#include "techniques/visibility_field/dense_field.h"
+#include "techniques/visibility_field/field.h"
+#include "techniques/visibility_field/sample_pattern.h"
+
+namespace sightlines::visibility_field {
+
+/// Which rays are traced. `label`: those inside the region that the cell's label names (the paper). `visible`: those
+/// inside the visible region, labels or not (Figure 9). `both`: those that some point of the cell saw open and some
+/// blocked, or that none looked at; what all agreed on is taken for granted.
+enum class Culling { label, visible, both };
+
+/// What the occluded irradiance is subtracted from (equation 11). `analytic`: the irradiance of the harmonics, as in
+/// the paper. `sampled`: the mean over the pixel's own samples, so that the picture is that of the same samples without
+/// a field.
+enum class Unshadowed { analytic, sampled };
+
+/// In which order Embree gets the rays that are traced. `pixel`: those of a pixel one after the other, as on a GPU.
+/// `direction`: those of a few hundred pixels sorted by direction, so that a packet's rays go the same way. Answers
+/// every ray alike.
+enum class RayOrder { pixel, direction };
+
+struct EnvironmentRequest {
+    const SurfaceBuffer* surfaces = nullptr;
+    const SamplePattern* pattern = nullptr;
+    Harmonics light;  ///< turned as it stands
+    const DenseField* dense =
+        nullptr;  ///< read the cells from here, the field's own in the paper's layout; may be null
+    Culling culling = Culling::label;
+    Unshadowed unshadowed = Unshadowed::analytic;
+    RayOrder order = RayOrder::direction;
+    int threads = 0;             ///< 0: all. Never changes the result
+    bool reverse_tiles = false;  ///< work through the tiles backwards. Never changes the result
+};
+
+/// What became of all samples. A sample that points below its surface counts as blocked without a ray.
+struct SampleCounts {
+    std::uint64_t samples = 0;
+    std::uint64_t below = 0;           ///< point into their own surface
+    std::uint64_t traced = 0;          ///< by Embree
+    std::uint64_t traced_blocked = 0;  ///< of those
+    std::uint64_t outside = 0;         ///< of the traced, from cells without masks
+    std::uint64_t discarded() const { return samples - below - traced; }
+
+    bool operator==(const SampleCounts&) const = default;
+};
+
+/// Pictures of the surfaces' size; the background is black and traces nothing.
+struct EnvironmentResult {
+    ImageRgb irradiance;               ///< W/m^2
+    ImageRgb radiance;                 ///< emission + albedo / pi * irradiance
+    Image<std::uint32_t> rays_traced;  ///< of each pixel
+    SampleCounts counts;
+    double seconds = 0.0;
+    std::string device;
+};
+
+/// The kernels' form of a light.
+HarmonicLight harmonic_light(const Harmonics& harmonics);
+
+/// Without a field (null) every sample above its surface is traced: the reference, by the same code. The hemisphere is
+/// that of the shading normal.
+EnvironmentResult render_environment(const VisibilityField* field, const EmbreeScene& embree,
+                                     const EnvironmentRequest& request, Progress& progress);
+
+/// The same samples, but nothing is traced or shaded: only how many rays would be, and how long finding out takes.
+SampleCounts count_samples(const VisibilityField* field, const EnvironmentRequest& request, double& seconds);
+
+/// A ray that the field discarded although Embree answers it otherwise.
+struct WrongRay {
+    std::uint32_t pixel = 0, sample = 0;
+    vec3 direction{0.0f};
+    bool taken_for_blocked = false;  ///< else for open
+};
+
+struct WrongRays {
+    std::uint64_t discarded = 0;  ///< rays that were looked at
+    std::uint64_t wrong = 0;
+    std::vector<WrongRay> first;  ///< at most as many as asked for, by pixel and sample
+};
+
+/// Casts all discarded rays too. Slow: for finding faults.
+WrongRays find_wrong_rays(const VisibilityField& field, const EmbreeScene& embree, const EnvironmentRequest& request,
+                          std::size_t most, Progress& progress);
+
+/// How far a picture of irradiance is from another, over the pixels that show a surface and all channels.
+struct IrradianceError {
+    double mean_absolute = 0.0, rmse = 0.0, max_absolute = 0.0;
+    double mean_reference = 0.0;   ///< of the reference
+    double mean_unshadowed = 0.0;  ///< of the same surfaces with nothing in the way
+    /// Of the mean unshadowed irradiance: what a picture exposed for daylight shows.
+    double rmse_percent() const { return mean_unshadowed > 0.0 ? 100.0 * rmse / mean_unshadowed : 0.0; }
+    /// Of the mean irradiance, which may be far less.
+    double rmse_percent_of_mean() const { return mean_reference > 0.0 ? 100.0 * rmse / mean_reference : 0.0; }
+};
+IrradianceError compare_irradiance(const EnvironmentResult& ours, const EnvironmentResult& reference,
+                                   const EnvironmentRequest& request);
+
+}  // namespace sightlines::visibility_field

@@ -1,0 +1,54 @@
+// What is not hot of a picture: the light's form, and how far two pictures are apart.
+#include <algorithm>
+#include <cmath>
+
+#include "techniques/visibility_field/render.h"
+
+namespace sightlines::visibility_field {
+
+HarmonicLight harmonic_light(const Harmonics& harmonics) {
+    // In the kernels' order: 1, x, y, z, xy, yz, zx, 3zz - 1, xx - yy. The functions at these directions tell the
+    // factors.
+    const auto along = [](double x, double y, double z) { return harmonic_functions({x, y, z}); };
+    const auto& c = harmonics.coefficient;
+    HarmonicLight light;
+    light.term[0] = c[0] * static_cast<float>(along(0, 0, 1)[0]);
+    light.term[1] = c[3] * static_cast<float>(along(1, 0, 0)[3]);
+    light.term[2] = c[1] * static_cast<float>(along(0, 1, 0)[1]);
+    light.term[3] = c[2] * static_cast<float>(along(0, 0, 1)[2]);
+    light.term[4] = c[4] * static_cast<float>(along(1, 1, 0)[4]);
+    light.term[5] = c[5] * static_cast<float>(along(0, 1, 1)[5]);
+    light.term[6] = c[7] * static_cast<float>(along(1, 0, 1)[7]);
+    light.term[7] = c[6] * static_cast<float>(along(0, 0, 1)[6] / 2.0);
+    light.term[8] = c[8] * static_cast<float>(along(1, 0, 0)[8]);
+    return light;
+}
+
+IrradianceError compare_irradiance(const EnvironmentResult& ours, const EnvironmentResult& reference,
+                                   const EnvironmentRequest& request) {
+    const SurfaceBuffer& surfaces = *request.surfaces;
+    IrradianceError error;
+    double squares = 0.0, values = 0.0;
+    for (std::size_t p = 0; p < surfaces.triangle.size(); ++p) {
+        if (surfaces.triangle[p] == no_triangle) continue;
+        const vec3 unshadowed = irradiance(request.light, surfaces.shading_normal[p]);
+        for (int channel = 0; channel < 3; ++channel) {
+            const double expected = reference.irradiance.pixels[p][channel];
+            const double difference = ours.irradiance.pixels[p][channel] - expected;
+            squares += difference * difference;
+            error.mean_absolute += std::fabs(difference);
+            error.max_absolute = std::max(error.max_absolute, std::fabs(difference));
+            error.mean_reference += expected;
+            error.mean_unshadowed += unshadowed[channel];
+            values += 1.0;
+        }
+    }
+    if (values == 0.0) return error;
+    error.rmse = std::sqrt(squares / values);
+    error.mean_absolute /= values;
+    error.mean_reference /= values;
+    error.mean_unshadowed /= values;
+    return error;
+}
+
+}  // namespace sightlines::visibility_field

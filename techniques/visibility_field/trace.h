@@ -1,0 +1,53 @@
+// One sample of one pixel, step by step.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "techniques/technique.h"
+#include "techniques/visibility_field/bake.h"
+#include "techniques/visibility_field/render.h"
+
+namespace sightlines::visibility_field {
+
+enum class Fate { below_surface, outside_cells, traced, taken_for_blocked, taken_for_open };
+
+/// A sample as the renderer treats it, and the truth beside it.
+struct SampleTrace {
+    Trace trace;  ///< the ray, whether it counts as blocked, and the kernel's steps
+    Fate fate = Fate::traced;
+    ivec3 cell{0};  ///< its place in the grid
+    std::uint32_t cell_index = 0;
+    std::uint32_t label = 0;
+    ivec2 texel{0};  ///< column, row
+    bool visible_bit = false, occluded_bit = false;
+    bool blocked_in_truth = false;  ///< by Embree
+    vec3 adds{0.0f};                ///< to the pixel's irradiance, W/m^2; what is subtracted is negative
+
+    bool is_wrong() const {
+        return (fate == Fate::taken_for_blocked && !blocked_in_truth) ||
+               (fate == Fate::taken_for_open && blocked_in_truth);
+    }
+};
+
+/// Sample `sample` (of the pattern) of the pixel (x, y), which must show a surface, by the recording kernel.
+SampleTrace trace_sample(const VisibilityField& field, const EmbreeScene& embree, const EnvironmentRequest& request,
+                         int x, int y, int sample);
+
+/// For a ray that was discarded wrongly: the point samples of the cell that might have kept it.
+struct NearestSamples {
+    std::size_t points = 0;  ///< in the cell
+    float nearest_m = 0.0f;  ///< from the pixel's surface point to the nearest of them
+    SurfacePoint nearest;
+    std::size_t facing = 0;  ///< of them, with the ray's direction in front of them
+    /// The nearest of the points from which Embree answers the ray's direction as it answers the pixel's: a ray cast
+    /// from there in this direction would have kept it.
+    std::optional<SurfacePoint> should_have_seen;
+    float should_have_seen_m = 0.0f;
+};
+
+/// Places the point samples once more, with the options that the field was baked by.
+NearestSamples nearest_samples(const Scene& scene, const EmbreeScene& embree, const BakeOptions& options,
+                               const SampleTrace& traced, Progress& progress);
+
+}  // namespace sightlines::visibility_field
