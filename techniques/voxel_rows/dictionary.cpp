@@ -14,9 +14,9 @@ namespace sightlines::voxel_rows {
 namespace {
 
 constexpr std::uint32_t most_looked_at = 64;        ///< rows of the dictionary for one that matches some down-sampled
-constexpr std::uint32_t fewest_looked_at = 32;      ///< of those that match it best
+constexpr std::uint32_t fewest_looked_at = 16;      ///< of those that match it best
 constexpr std::uint32_t most_for_left_over = 1024;  ///< the same for one that is left over
-constexpr int second_shift = 4;  ///< half of what becomes one voxel at step_to_look_in
+constexpr int second_shift = 4;                     ///< half of what becomes one voxel at step_to_look_in
 constexpr int step_to_look_in = 3;  ///< the nearest is looked for among all that match down-sampled by 8, or more
 constexpr std::uint32_t most_packed_rows = 1u << 20u;
 constexpr std::size_t rows_between_checks = 1024;
@@ -71,7 +71,7 @@ std::uint32_t random_place(const Mapping<length>& mapping, const RowBits<length>
 /// At most `most` rows of `all`, round `place`.
 Range window(Range all, std::uint32_t place, std::uint32_t most) {
     if (all.count <= most) return all;
-    const std::uint32_t first = place > most / 2 ? place - most / 2 : 0;
+    const std::uint32_t first = (place > most / 2 ? place - most / 2 : 0) / rows_at_once * rows_at_once;
     return {std::clamp(first, all.first, all.first + all.count - most), most};
 }
 
@@ -82,17 +82,19 @@ Match nearest_round(const SortedRows<length>& sorted, const Asked<length>& asked
     return nearest_in(sorted, window(all, asked.place, most), asked.row, asked.probes, best);
 }
 
-/// The dictionary's row for one that belongs to the group after `step`: the paper's, or one that is no further away.
+/// The dictionary's row for one that matches some: the paper's, or one that is no further away.
 template <int length>
-Match choose(const Mapping<length>& mapping, const Group& group, int step, const Asked<length>& asked) {
-    const bool left_over = step >= mapping.options.steps;
-    const Match papers = compared(mapping, asked, left_over ? random_place(mapping, asked.row) : group.best);
+Match choose(const Mapping<length>& mapping, const Matching& matching, const Asked<length>& asked) {
+    const bool left_over = matching.step >= mapping.options.steps;
+    const Match papers = compared(mapping, asked, left_over ? random_place(mapping, asked.row) : matching.group.best);
     if (mapping.options.leftovers == Leftovers::random) return papers;
     // The likelier ones first: the others are given up the sooner.
-    const Match near = nearest_round(mapping.sorted, asked, group.range, fewest_looked_at, papers);
-    if (left_over) return nearest_round(mapping.sorted, asked, group.range, most_for_left_over, near);
-    const Group* wider = find_group(mapping.sorted, asked.row, asked.place, std::max(step, step_to_look_in));
-    return nearest_round(mapping.sorted, asked, wider->range, most_looked_at, near);
+    const Match near = matching.step < step_to_look_in
+                           ? nearest_round(mapping.sorted, asked, matching.group.range, fewest_looked_at, papers)
+                           : papers;
+    if (left_over) return nearest_round(mapping.sorted, asked, matching.group.range, most_for_left_over, near);
+    const auto wider = find_matching(mapping.sorted, asked.row, asked.place, step_to_look_in);
+    return nearest_round(mapping.sorted, asked, wider->group.range, most_looked_at, near);
 }
 
 /// Lines 7 to 15 for one row that is not in the dictionary.
@@ -100,11 +102,11 @@ template <int length>
 Match map_row(const Mapping<length>& mapping, const Asked<length>& asked, std::uint64_t*& counter,
               MappedCounts& counts) {
     const bool nearest = mapping.options.leftovers == Leftovers::nearest;
-    for (int step = 1; step <= coarsest_step && (step < mapping.options.steps || nearest); ++step) {
-        const Group* group = find_group(mapping.sorted, asked.row, asked.place, step);
-        if (group == nullptr) continue;
-        counter = step < mapping.options.steps ? &counts.by_step[static_cast<std::size_t>(step)] : &counts.left_over;
-        return choose(mapping, *group, step, asked);
+    const auto matching = find_matching(mapping.sorted, asked.row, asked.place, 1);
+    if (matching && (matching->step < mapping.options.steps || nearest)) {
+        counter = matching->step < mapping.options.steps ? &counts.by_step[static_cast<std::size_t>(matching->step)]
+                                                         : &counts.left_over;
+        return choose(mapping, *matching, asked);
     }
     counter = &counts.left_over;
     return compared(mapping, asked, random_place(mapping, asked.row));
@@ -159,13 +161,11 @@ MappedCounts look_again(const Mapping<length>& mapping, const RowDeals<length>& 
         if ((k - rows.first[deal]) % rows_between_checks == 0) progress.check();
         const DealtRow<length> dealt = rows[k];
         const std::uint32_t place = place_among(mapping.sorted, alike, dealt.row);
-        const Group* group = nullptr;
-        for (int step = step_to_look_in; step <= coarsest_step && group == nullptr; ++step)
-            group = find_group(mapping.sorted, dealt.row, place, step);
-        if (group == nullptr) continue;
+        const auto matching = find_matching(mapping.sorted, dealt.row, place, step_to_look_in);
+        if (!matching) continue;
         const Asked<length> asked{dealt.row, place, RowProbes<length>(dealt.row, mapping.resolution)};
         const Match known{place, {dealt.distance, 0}};
-        const Match match = nearest_round(mapping.sorted, asked, group->range, most_looked_at, known);
+        const Match match = nearest_round(mapping.sorted, asked, matching->group.range, most_looked_at, known);
         if (match.distance == known.distance) continue;
         counts.differing_lights -= std::int64_t{dealt.distance - match.distance.lights} * dealt.count;
         mapping.index_of_id[dealt.id] = mapping.sorted.index[match.place];
@@ -264,7 +264,8 @@ RowArray compress_rows(const RowArray& array, const DictionaryOptions& options, 
     kept.distinct_rows = histogram.distinct;
     kept.rows_mapped.assign(counts.by_step.begin(), counts.by_step.begin() + options.steps);
     kept.rows_left_over = counts.left_over;
-    kept.differing_share = static_cast<double>(counts.differing_lights) / std::max(1.0, static_cast<double>(counts.lights));
+    kept.differing_share =
+        static_cast<double>(counts.differing_lights) / std::max(1.0, static_cast<double>(counts.lights));
     for (const ChosenRow<length>& row : chosen) kept.frequencies.push_back(row.count);
     made.words = allocate_huge(compressed_words(array.grid, kept.rows, kept.index_bits));
     std::memcpy(made.words.words.data(), dictionary.data(), dictionary.size() * sizeof dictionary[0]);
@@ -297,9 +298,7 @@ std::uint64_t row_hash(std::span<const std::uint32_t> row) {
 int mapping_step(std::span<const std::uint32_t> row, std::span<const std::uint32_t> dictionary_row, int steps) {
     return with_row_length(static_cast<int>(row.size()), [&](auto length) {
         const auto a = load_row<length()>(row.data()), b = load_row<length()>(dictionary_row.data());
-        int step = 0;
-        while (step < steps && simplify(a, step) != simplify(b, step)) ++step;
-        return step;
+        return first_common_step(a, b, 0, steps);
     });
 }
 

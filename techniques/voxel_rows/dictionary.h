@@ -42,9 +42,9 @@ std::uint64_t row_hash(std::span<const std::uint32_t> row);
 int mapping_step(std::span<const std::uint32_t> row, std::span<const std::uint32_t> dictionary_row, int steps);
 
 /// The measure of "nearest". From each surface of `row` rays leave along the row: they start at the first and at the
-/// second voxel beyond it, where these are clear, and end at lights in the voxels from there to the row's end. Lights spread
-/// evenly through space stand in a cone round the row, so that (k + 1)^3 - k^3 of them are k voxels away (an eighth of
-/// these in rows of more than 128 voxels). So many lights does `dictionary_row` answer differently.
+/// second voxel beyond it, where these are clear, and end at lights in the voxels from there to the row's end. Lights
+/// spread evenly through space stand in a cone round the row, so that (k + 1)^3 - k^3 of them are k voxels away (an
+/// eighth of these in rows of more than 128 voxels). So many lights does `dictionary_row` answer differently.
 std::uint32_t differing_lights(std::span<const std::uint32_t> row, std::span<const std::uint32_t> dictionary_row,
                                int resolution);
 

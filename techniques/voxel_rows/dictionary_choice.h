@@ -22,6 +22,6 @@ std::vector<ChosenRow<length>> choose_rows(const RowDeals<length>& rows, const D
 
 /// What a row is worth for a dictionary that is to cover: how often the row occurs, and, if it is the most frequent one
 /// of all that are alike down-sampled by 2 (or 4), how often these occur together, times as many.
-constexpr std::uint64_t worth_of_group[3]{1, 16, 32};
+constexpr std::uint64_t worth_of_group[3]{1, 4, 16};
 
 }  // namespace sightlines::voxel_rows

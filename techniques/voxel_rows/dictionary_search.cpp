@@ -14,54 +14,54 @@ namespace sightlines::voxel_rows {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Tag = hn::CappedTag<std::uint32_t, 16>;
+using Tag = hn::CappedTag<std::uint32_t, rows_at_once>;
 using Vector = hn::Vec<Tag>;
 constexpr std::size_t lanes = hn::MaxLanes(Tag());
 template <int length>
 constexpr std::size_t block_words = 2 * static_cast<std::size_t>(length) * lanes;
 
 constexpr std::size_t rows_between_checks = 1u << 14u;
+constexpr std::size_t probes_between_checks = 4;
 
-/// What a row is put in order by.
+/// What rows are put in order by: down-sampled from coarse to fine, and then the bits themselves.
 template <int length>
 struct SortKey {
-    std::uint64_t prefix;
-    RowBits<length> moved, row;
+    std::uint64_t prefix, fine;
+    RowBits<length> by_2, row;
 
-    SortKey(const RowBits<length>& row_, int shift)
-        : SortKey(row_, shift, coarse_prefix(shifted(row_, shift))) {}
-    SortKey(const RowBits<length>& row_, int shift, std::uint64_t prefix_)
-        : prefix(prefix_), moved(shifted(row_, shift)), row(row_) {}
-
-    std::strong_ordering operator<=>(const SortKey& other) const {
-        if (prefix != other.prefix) return prefix <=> other.prefix;
-        for (int step = 2; step >= 1; --step)
-            if (const auto order = simplify(moved, step) <=> simplify(other.moved, step); order != 0) return order;
-        return row <=> other.row;
-    }
+    auto operator<=>(const SortKey&) const = default;
 };
 
-/// Fills rows, prefix and index.
+template <int length>
+SortKey<length> sort_key(const RowBits<length>& row, int shift) {
+    const RowBits<length> moved = shifted(row, shift);
+    return {coarse_prefix(moved), fine_key(moved), simplify(moved, 1), row};
+}
+
+/// Fills rows, prefix, fine and index.
 template <int length>
 void put_in_order(const std::vector<RowBits<length>>& rows, SortedRows<length>& sorted, const Progress& progress) {
     struct Numbered {
-        std::uint64_t prefix;
+        std::uint64_t prefix, fine;
         std::uint32_t index;
     };
     std::vector<Numbered> order;
     for (const RowBits<length>& row : rows) {
         if (order.size() % rows_between_checks == 0) progress.check();
-        order.push_back({coarse_prefix(shifted(row, sorted.shift)), static_cast<std::uint32_t>(order.size())});
+        const RowBits<length> moved = shifted(row, sorted.shift);
+        order.push_back({coarse_prefix(moved), fine_key(moved), static_cast<std::uint32_t>(order.size())});
     }
     std::uint32_t compared = 0;
     std::ranges::sort(order, [&](const Numbered& a, const Numbered& b) {
         if (++compared % (1u << 16u) == 0) progress.check();
         if (a.prefix != b.prefix) return a.prefix < b.prefix;
-        return SortKey(rows[a.index], sorted.shift, 0) < SortKey(rows[b.index], sorted.shift, 0);
+        if (a.fine != b.fine) return a.fine < b.fine;
+        return sort_key(rows[a.index], sorted.shift) < sort_key(rows[b.index], sorted.shift);
     });
     for (const Numbered& each : order) {
         sorted.rows.push_back(rows[each.index]);
         sorted.prefix.push_back(each.prefix);
+        sorted.fine.push_back(each.fine);
         sorted.index.push_back(each.index);
     }
 }
@@ -148,7 +148,7 @@ template <int length>
 HWY_INLINE Vector add_differing(Vector sum, const Probes<length>& probes, const LaneRows<length>& rows, Vector most) {
     const Tag tag;
     for (std::size_t k = 0; k < probes.count; ++k) {
-        if (hn::AllTrue(tag, hn::Gt(sum, most))) break;
+        if (k % probes_between_checks == 0 && hn::AllTrue(tag, hn::Gt(sum, most))) break;
         const Probe& probe = probes.probes[k];
         const Vector free_voxels = hn::Sub(next_set(rows, probe.start), hn::Set(tag, probe.start));
         const Vector ours = light_weights<length>(free_voxels), right = hn::Set(tag, probe.lights);
@@ -176,7 +176,7 @@ SortedRows<length> sort_rows(const std::vector<RowBits<length>>& rows, int shift
 
 template <int length>
 std::uint32_t place_among(const SortedRows<length>& sorted, Range within, const RowBits<length>& row) {
-    const SortKey<length> key(row, sorted.shift);
+    const SortKey<length> key = sort_key(row, sorted.shift);
     // Halves without branches, which nobody could foretell.
     std::uint32_t first = within.first;
     for (std::uint32_t count = within.count; count > 0;) {
@@ -187,7 +187,8 @@ std::uint32_t place_among(const SortedRows<length>& sorted, Range within, const 
     const std::uint32_t end = within.first + within.count;
     const auto before = [&](std::uint32_t place) {
         if (sorted.prefix[place] != key.prefix) return sorted.prefix[place] < key.prefix;
-        return SortKey(sorted.rows[place], sorted.shift, key.prefix) < key;
+        if (sorted.fine[place] != key.fine) return sorted.fine[place] < key.fine;
+        return sort_key(sorted.rows[place], sorted.shift) < key;
     };
     if (first == end || !before(first)) return first;
     const auto places = std::views::iota(first, end);  // several rows have this prefix
@@ -195,12 +196,20 @@ std::uint32_t place_among(const SortedRows<length>& sorted, Range within, const 
 }
 
 template <int length>
-const Group* find_group(const SortedRows<length>& sorted, const RowBits<length>& row, std::uint32_t place, int step) {
-    const RowBits<length> key = simplify(shifted(row, sorted.shift), step);
-    const auto which = static_cast<std::size_t>(step - 1);
-    if (place < sorted.rows.size() && key_of(sorted, place, step) == key) return &sorted.groups[place][which];
-    if (place > 0 && key_of(sorted, place - 1, step) == key) return &sorted.groups[place - 1][which];
-    return nullptr;
+std::optional<Matching> find_matching(const SortedRows<length>& sorted, const RowBits<length>& row, std::uint32_t place,
+                                      int least_step) {
+    int step = coarsest_step + 1;
+    std::uint32_t match = 0;
+    for (const std::uint32_t neighbour : {place - 1, place}) {
+        if (neighbour >= sorted.rows.size()) continue;
+        const int common = first_common_step(shifted(sorted.rows[neighbour], sorted.shift), shifted(row, sorted.shift),
+                                             least_step, step);
+        if (common >= step) continue;
+        step = common;
+        match = neighbour;
+    }
+    if (step > coarsest_step) return {};
+    return Matching{step, sorted.groups[match][static_cast<std::size_t>(step - 1)]};
 }
 
 template <int length>
@@ -231,11 +240,12 @@ Match nearest_in(const SortedRows<length>& sorted, Range range, const RowBits<le
     return best;
 }
 
-#define SIGHTLINES_FOR_ROW_LENGTH(length)                                                                          \
-    template SortedRows<length> sort_rows(const std::vector<RowBits<length>>&, int, int, Progress&);               \
-    template std::uint32_t place_among(const SortedRows<length>&, Range, const RowBits<length>&);                        \
-    template const Group* find_group(const SortedRows<length>&, const RowBits<length>&, std::uint32_t, int);       \
-    template Match nearest_in(const SortedRows<length>&, Range, const RowBits<length>&, const RowProbes<length>&, \
+#define SIGHTLINES_FOR_ROW_LENGTH(length)                                                                            \
+    template SortedRows<length> sort_rows(const std::vector<RowBits<length>>&, int, int, Progress&);                 \
+    template std::uint32_t place_among(const SortedRows<length>&, Range, const RowBits<length>&);                    \
+    template std::optional<Matching> find_matching(const SortedRows<length>&, const RowBits<length>&, std::uint32_t, \
+                                                   int);                                                             \
+    template Match nearest_in(const SortedRows<length>&, Range, const RowBits<length>&, const RowProbes<length>&,    \
                               Match);
 SIGHTLINES_FOR_ROW_LENGTH(1)
 SIGHTLINES_FOR_ROW_LENGTH(2)

@@ -1,6 +1,7 @@
 // Wang 2017, Algorithm 2, lines 4 to 11: the dictionary, down-sampled, and the search for a row in it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "techniques/base/huge_buffer.h"
@@ -9,7 +10,8 @@
 
 namespace sightlines::voxel_rows {
 
-constexpr int coarsest_step = 5;  ///< down-sampled by 32
+constexpr int coarsest_step = 5;            ///< down-sampled by 32
+constexpr std::uint32_t rows_at_once = 16;  ///< ranges of SortedRows cost least where they begin at a multiple
 
 /// How far a row of the dictionary is from another one: by what it answers differently first, then voxels.
 struct Distance {
@@ -37,13 +39,13 @@ struct Group {
     std::uint32_t best = 0;  ///< the place of the most frequent one
 };
 
-/// The dictionary's rows in an order in which those that are alike when shifted and down-sampled lie together, for every
-/// step at once.
+/// The dictionary's rows in an order in which those that are alike when shifted and down-sampled lie together, for
+/// every step at once.
 template <int length>
 struct SortedRows {
     int shift = 0;
     std::vector<RowBits<length>> rows;
-    std::vector<std::uint64_t> prefix;                     ///< coarse_prefix of each, shifted
+    std::vector<std::uint64_t> prefix, fine;               ///< coarse_prefix and fine_key of each, shifted
     std::vector<std::uint32_t> index;                      ///< of each in the dictionary
     std::vector<std::array<Group, coarsest_step>> groups;  ///< each row's own after step 1, 2 ...
     /// For comparing many at once: [blocks of as many rows as a vector has lanes][up, down][length][lane]; down is the
@@ -59,9 +61,17 @@ SortedRows<length> sort_rows(const std::vector<RowBits<length>>& rows, int shift
 template <int length>
 std::uint32_t place_among(const SortedRows<length>& sorted, Range within, const RowBits<length>& row);
 
-/// The group of those that `row`, whose place is given, matches after `step`; null where there is none.
+/// Rows of the dictionary that match another one after some step.
+struct Matching {
+    int step;
+    Group group;
+};
+
+/// The first step from `least_step` on after which rows of the dictionary match `row`, whose place is given; nothing
+/// where no step makes any match.
 template <int length>
-const Group* find_group(const SortedRows<length>& sorted, const RowBits<length>& row, std::uint32_t place, int step);
+std::optional<Matching> find_matching(const SortedRows<length>& sorted, const RowBits<length>& row, std::uint32_t place,
+                                      int least_step);
 
 /// The nearest to a row (whose probes are given) among some rows of the dictionary, the first of equals; `best` where
 /// none is nearer.

@@ -46,17 +46,40 @@ std::uint64_t hash_row(const RowBits<length>& row) {
     return hash ^ hash >> 32u;
 }
 
+/// The lowest bit of each group of 2^step bits.
+constexpr std::array<std::uint32_t, 6> lowest_of_groups{0xffffffffu, 0x55555555u, 0x11111111u,
+                                                        0x01010101u, 0x00010001u, 0x00000001u};
+
+/// The lowest bit of each group of 2^(step + 1) is set iff any of the group is, where that holds for 2^step already.
+inline std::uint32_t gather_groups(std::uint32_t word, int step) {
+    return word | word >> (1u << static_cast<unsigned>(step));
+}
+
 /// Down-sampled by 2^step, at most 32: the lowest bit of each group of 2^step is set iff any of the group is; the
 /// others are clear.
 template <int length>
-RowBits<length> simplify(RowBits<length> row, int step) {
-    constexpr std::array<std::uint32_t, 6> lowest_of_groups{0xffffffffu, 0x55555555u, 0x11111111u,
-                                                            0x01010101u, 0x00010001u, 0x00000001u};
+[[gnu::always_inline]] inline RowBits<length> simplify(RowBits<length> row, int step) {
     for (std::uint32_t& word : row.words) {
-        for (int k = 0; k < step; ++k) word |= word >> (1u << static_cast<unsigned>(k));
+        for (int k = 0; k < step; ++k) word = gather_groups(word, k);
         word &= lowest_of_groups[static_cast<std::size_t>(step)];
     }
     return row;
+}
+
+/// The first step from `least` on, at most 5, after which the two rows are alike; `end` where none before that is.
+template <int length>
+int first_common_step(RowBits<length> a, RowBits<length> b, int least, int end) {
+    for (int step = 0; step < end; ++step) {
+        std::uint32_t differing = 0;
+        for (std::size_t k = 0; k < length; ++k)
+            differing |= (a.words[k] ^ b.words[k]) & lowest_of_groups[static_cast<std::size_t>(step)];
+        if (step >= least && differing == 0) return step;
+        for (std::size_t k = 0; k < length; ++k) {
+            a.words[k] = gather_groups(a.words[k], step);
+            b.words[k] = gather_groups(b.words[k], step);
+        }
+    }
+    return end;
 }
 
 /// Calls body(integral constant) with the words of a row as a constant: 1, 2, 4 or 8.

@@ -100,7 +100,7 @@ RowDeals<length> deal_again(const RowDeals<length>& dealt, int shift, int thread
     return deal_out<length>(Sources<decltype(visit)>{dealt.deals(), dealt.rows(), visit}, shift, threads, progress);
 }
 
-#define SIGHTLINES_FOR_ROW_LENGTH(length)                                                        \
+#define SIGHTLINES_FOR_ROW_LENGTH(length)                                                   \
     template RowDeals<length> deal_rows(std::vector<DistinctRows<length>>, int, Progress&); \
     template RowDeals<length> deal_again(const RowDeals<length>&, int, int, Progress&);
 SIGHTLINES_FOR_ROW_LENGTH(1)

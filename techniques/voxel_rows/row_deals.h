@@ -6,8 +6,8 @@
 namespace sightlines::voxel_rows {
 
 /// The row moved up by `shift` voxels, 0 to 31; what leaves it is lost. Rows are down-sampled in two ways, as they are
-/// and moved by half of what becomes one voxel, so that a surface at the edge of a coarse voxel in one is in the middle of
-/// another in the other.
+/// and moved by half of what becomes one voxel, so that a surface at the edge of a coarse voxel in one is in the middle
+/// of another in the other.
 template <int length>
 RowBits<length> shifted(const RowBits<length>& row, int shift) {
     if (shift == 0) return row;
@@ -24,13 +24,33 @@ RowBits<length> shifted(const RowBits<length>& row, int shift) {
 template <int length>
 std::uint64_t coarse_prefix(const RowBits<length>& row) {
     static_assert(length * (1 + 2 + 4) <= 64);
-    std::uint64_t prefix = 0;
-    for (const std::uint32_t word : simplify(row, 5).words) prefix = prefix << 1u | word;
-    for (const std::uint32_t word : simplify(row, 4).words) prefix = prefix << 2u | (word & 1u) << 1u | word >> 16u;
-    // Bits 0, 8, 16 and 24 move to 31, 30, 29 and 28; no two of the sixteen terms meet.
-    constexpr std::uint32_t gather = 1u << 31u | 1u << 22u | 1u << 13u | 1u << 4u;
-    for (const std::uint32_t word : simplify(row, 3).words) prefix = prefix << 4u | word * gather >> 28u;
-    return prefix;
+    std::uint64_t by_32 = 0, by_16 = 0, by_8 = 0;
+    for (std::uint32_t word : row.words) {
+        word |= word >> 1u;
+        word |= word >> 2u;
+        word |= word >> 4u;
+        // Bits 0, 8, 16 and 24 move to 31, 30, 29 and 28; no two of the sixteen terms meet.
+        constexpr std::uint32_t gather = 1u << 31u | 1u << 22u | 1u << 13u | 1u << 4u;
+        const std::uint32_t of_8 = (word & 0x01010101u) * gather >> 28u;
+        const std::uint32_t of_16 = (of_8 >> 2u != 0 ? 2u : 0u) | ((of_8 & 3u) != 0 ? 1u : 0u);
+        by_8 = by_8 << 4u | of_8;
+        by_16 = by_16 << 2u | of_16;
+        by_32 = by_32 << 1u | (of_16 != 0 ? 1u : 0u);
+    }
+    return (by_32 << 2u * length | by_16) << 4u * length | by_8;
+}
+
+/// The row down-sampled by 4, eight bits for each word.
+template <int length>
+std::uint64_t fine_key(const RowBits<length>& row) {
+    static_assert(8 * length <= 64);
+    std::uint64_t key = 0;
+    for (std::uint32_t word : simplify(row, 2).words) {
+        word = (word | word >> 3u) & 0x03030303u;
+        word = (word | word >> 6u) & 0x000f000fu;
+        key = key << 8u | ((word | word >> 12u) & 0xffu);
+    }
+    return key;
 }
 
 /// A distinct row, how often it occurs, its id in the histogram, and how far the dictionary's row for it is from it.
@@ -40,8 +60,8 @@ struct DealtRow {
     std::uint32_t count, id, distance;
 };
 
-/// Distinct rows in deals that ascend by coarse_prefix of the shifted row: each deal is small enough for a processor's own
-/// cache, unless too many rows have one prefix.
+/// Distinct rows in deals that ascend by coarse_prefix of the shifted row: each deal is small enough for a processor's
+/// own cache, unless too many rows have one prefix.
 template <int length>
 struct RowDeals {
     static constexpr std::size_t stride = static_cast<std::size_t>(length) + 3;

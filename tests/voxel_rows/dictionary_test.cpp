@@ -334,17 +334,20 @@ TEST(DictionarySearch, FindsEveryRowAndAllThatMatchItDownSampled) {
             RowBits<8> other = rows[k];  // one that is not there
             other.words[3] ^= 1u << (k % 32);
             for (int step = 1; step <= coarsest_step; ++step) {
-                const auto key = simplify(shifted(other, shift), step);
-                std::uint32_t matching = 0, best = ~0u;
-                for (std::uint32_t j = 0; j < rows.size(); ++j) {
-                    if (simplify(shifted(rows[j], shift), step) != key) continue;
-                    ++matching;
-                    best = std::min(best, j);
-                }
-                const Group* group = find_group(sorted, other, place_among(sorted, all, other), step);
-                ASSERT_EQ(group == nullptr ? 0u : group->range.count, matching) << k << ' ' << step;
-                if (group == nullptr) continue;
-                ASSERT_EQ(sorted.index[group->best], best);
+                const auto matching = find_matching(sorted, other, place_among(sorted, all, other), step);
+                const auto matches = [&](const RowBits<8>& row, int after) {
+                    return simplify(shifted(row, shift), after) == simplify(shifted(other, shift), after);
+                };
+                int first = step;
+                while (first <= coarsest_step &&
+                       std::ranges::none_of(rows, [&](const auto& row) { return matches(row, first); }))
+                    ++first;
+                ASSERT_EQ(matching ? matching->step : coarsest_step + 1, first);
+                if (!matching) continue;
+                const auto best = std::ranges::find_if(rows, [&](const auto& row) { return matches(row, first); });
+                ASSERT_EQ(sorted.index[matching->group.best], static_cast<std::uint32_t>(best - rows.begin()));
+                ASSERT_EQ(matching->group.range.count,
+                          std::ranges::count_if(rows, [&](const auto& row) { return matches(row, first); }));
             }
         }
     }
