@@ -1,4 +1,6 @@
 // What the commands write: complete files with everything that the design names, or none.
+#include <chrono>
+#include <csignal>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -97,10 +99,68 @@ TEST(Render, LeavesWhatWasThereWhenItIsInterrupted) {
     std::ofstream(folder / "a.png") << "what was there";
     const ProgramRun run = run_program({"render", "--scene", "atrium", "--size", "1280x720", "--lights", "4096",
                                         "--backend", "cpu", "--reference", "--report", "r.json", "--out", "a.png"},
-                                       folder, 0.4);
+                                       folder, SendSignal{SIGINT, 0.4});
     EXPECT_EQ(run.exit_code, 130) << run.errors;
     EXPECT_EQ(files_in(folder), Arguments{"a.png"});
     EXPECT_EQ(text_of(folder / "a.png"), "what was there");
+}
+
+TEST(KeptArrays, AreWholeOrAbsentWhereverTheProgramIsKilled) {
+    const fs::path folder = fresh_folder();
+    const VariableSet keeping("SIGHTLINES_CACHE", "on");
+    const auto trace = [&](const std::string& cache, std::optional<SendSignal> send) {
+        const VariableSet where("XDG_CACHE_HOME", (folder / cache).string());
+        return run_program({"trace",
+                            "--scene",
+                            "cornell",
+                            "--lights",
+                            "8",
+                            "--size",
+                            "64x36",
+                            "--pixel",
+                            "32,30",
+                            "--ray",
+                            "0",
+                            "--set",
+                            "compression=1",
+                            "resolution=64",
+                            "angle_step=6",
+                            "dictionary_rows=20000",
+                            "--backend",
+                            "cpu",
+                            "--out",
+                            "t.json"},
+                           folder, send);
+    };
+    const auto kept = [&](const std::string& cache) {
+        std::vector<std::pair<std::string, std::uintmax_t>> files;
+        const fs::path arrays = folder / cache / "sightlines" / "arrays";
+        if (fs::exists(arrays))
+            for (const auto& entry : fs::directory_iterator(arrays))
+                if (entry.path().extension() == ".rows")
+                    files.emplace_back(entry.path().filename().string(), entry.file_size());
+        return files;
+    };
+    const auto start = std::chrono::steady_clock::now();
+    ASSERT_EQ(trace("whole", {}).exit_code, 0);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const std::string expected = text_of(folder / "t.json");
+    const auto expected_files = kept("whole");
+    ASSERT_EQ(expected_files.size(), 1u);
+
+    constexpr int kills = 12;
+    int killed = 0;
+    for (int k = 0; k < kills; ++k) {
+        const std::string cache = "killed" + std::to_string(k);
+        killed += trace(cache, SendSignal{SIGKILL, seconds * (k + 1) / kills}).exit_code == -SIGKILL;
+        const auto left = kept(cache);
+        ASSERT_TRUE(left.empty() || left == expected_files) << k;
+        fs::remove(folder / "t.json");
+        ASSERT_EQ(trace(cache, {}).exit_code, 0) << k;
+        ASSERT_EQ(text_of(folder / "t.json"), expected) << k;
+        ASSERT_EQ(kept(cache), expected_files) << k;
+    }
+    EXPECT_GT(killed, kills / 3);
 }
 
 TEST(Workspace, RendersTheSavedSessionToTheSamePixels) {

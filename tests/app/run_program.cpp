@@ -17,6 +17,16 @@
 namespace sightlines {
 
 namespace fs = std::filesystem;
+namespace {
+
+void set(const std::string& name, const std::optional<std::string>& value) {
+    if (value)
+        setenv(name.c_str(), value->c_str(), 1);
+    else
+        unsetenv(name.c_str());
+}
+
+}  // namespace
 
 std::string text_of(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
@@ -32,14 +42,12 @@ std::vector<std::string> files_in(const fs::path& folder) {
     return names;
 }
 
-DisplayHidden::DisplayHidden() {
-    if (const char* const display = std::getenv("DISPLAY")) before = display;
-    unsetenv("DISPLAY");
+VariableSet::VariableSet(const std::string& name_, const std::optional<std::string>& value) : name(name_) {
+    if (const char* const text = std::getenv(name.c_str())) before = text;
+    set(name, value);
 }
 
-DisplayHidden::~DisplayHidden() {
-    if (before) setenv("DISPLAY", before->c_str(), 1);
-}
+VariableSet::~VariableSet() { set(name, before); }
 
 fs::path fresh_folder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
@@ -52,7 +60,7 @@ fs::path fresh_folder() {
 }
 
 ProgramRun run_program(const std::vector<std::string>& arguments, const fs::path& folder,
-                       std::optional<double> interrupt_after_s) {
+                       std::optional<SendSignal> send) {
     const fs::path logs = fs::path(folder.string() + ".logs");
     fs::create_directories(logs);
     const std::string out = (logs / "stdout").string(), err = (logs / "stderr").string();
@@ -68,9 +76,9 @@ ProgramRun run_program(const std::vector<std::string>& arguments, const fs::path
         execv(SIGHTLINES_PROGRAM, argv.data());
         _exit(127);
     }
-    if (interrupt_after_s) {
-        std::this_thread::sleep_for(std::chrono::duration<double>(*interrupt_after_s));
-        kill(child, SIGINT);
+    if (send) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(send->after_s));
+        kill(child, send->signal);
     }
     int status = 0;
     waitpid(child, &status, 0);

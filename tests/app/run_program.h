@@ -13,18 +13,30 @@ struct ProgramRun {
     std::string output, errors;
 };
 
-/// Runs the program with `arguments` in `folder` and waits. `interrupt_after_s`: sends SIGINT then.
+/// A signal for the running program.
+struct SendSignal {
+    int signal;
+    double after_s;
+};
+
+/// Runs the program with `arguments` in `folder` and waits.
 ProgramRun run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                       std::optional<double> interrupt_after_s = {});
+                       std::optional<SendSignal> send = {});
+
+/// While it lives, a variable of the environment has this value for programs that are started, or none.
+struct VariableSet {
+    std::string name;
+    std::optional<std::string> before;
+
+    VariableSet(const std::string& name_, const std::optional<std::string>& value);
+    ~VariableSet();
+    VariableSet(const VariableSet&) = delete;
+    VariableSet& operator=(const VariableSet&) = delete;
+};
 
 /// While it lives, programs that are started find no display.
 struct DisplayHidden {
-    std::optional<std::string> before;
-
-    DisplayHidden();
-    ~DisplayHidden();
-    DisplayHidden(const DisplayHidden&) = delete;
-    DisplayHidden& operator=(const DisplayHidden&) = delete;
+    VariableSet display{"DISPLAY", {}};
 };
 
 /// An empty folder for the running test.
