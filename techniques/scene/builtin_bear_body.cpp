@@ -54,7 +54,7 @@ Step step_at(const Leg& leg, float since) {
     }
     const float t = (since - on_ground) / (1.0f - on_ground);
     const float eased = t * t * (3.0f - 2.0f * t);
-    const float lift = std::sin(pi * t);
+    const float lift = std::max(std::sin(pi * t), 0.0f);  // t may be rounded to a little more than 1
     return {{leg.reach_m * (2.0f * eased - 1.0f) - 0.06f * std::sin(2.0f * pi * t),
              0.27f * std::pow(lift, 1.3f) + 0.05f * (1.0f - t) * (1.0f - t)},
             -0.5f * (1.0f - t) - 0.75f * lift * (1.0f - t) + 0.25f * lift * t};

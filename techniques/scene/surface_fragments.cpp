@@ -236,6 +236,9 @@ void add_triangle(const GridFrame& frame, const Scene& scene, std::uint32_t inde
         world[k] = dvec3(scene.positions[vertices[i]]);
         corners[k] = (world[k] - frame.lowest) * frame.cells_per_metre;
     }
+    // Animations can pose vertices nowhere; clipping such edges would not end.
+    const dvec3 sum = corners[0] + corners[1] + corners[2];
+    if (!std::isfinite(sum.x + sum.y + sum.z)) return;
     sample_triangle(frame, corners, index, samples);
     samples.finish_triangle(0.5 * glm::length(glm::cross(world[1] - world[0], world[2] - world[0])));
 }

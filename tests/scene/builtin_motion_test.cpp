@@ -49,6 +49,16 @@ TEST(Bear, IsAllThatDeforms) {
     EXPECT_EQ(deforming, 1);
 }
 
+TEST(Bear, IsSomewhereAtEveryTenthOfASecond) {
+    const SceneModel model = bear_model();
+    for (int k = 0; k < 40; ++k) {
+        const Scene scene = model.at(0.1 * k);
+        const bool nowhere = std::ranges::any_of(
+            scene.positions, [](const vec3& position) { return !std::isfinite(position.x + position.y + position.z); });
+        ASSERT_FALSE(nowhere) << "at " << 0.1 * k << " s";
+    }
+}
+
 TEST(Bear, BendsItsLegsSpineAndNeck) {
     using namespace bear;
     for (const std::uint32_t bone :

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <tuple>
 
@@ -274,6 +275,16 @@ TEST(SurfaceFragments, OfAFlatSceneLieInOneLayer) {
 TEST(SurfaceFragments, OfNothingAreNone) {
     EXPECT_TRUE(fragments_of(Scene{}, unit_cells(ivec3(8))).empty());
     EXPECT_TRUE(fragments_of(scene_of({vec3(0), vec3(1), vec3(2)}), {Box3{}, ivec3(8)}).empty());
+}
+
+TEST(SurfaceFragments, OfATriangleWithACornerThatIsNowhereAreNone) {
+    for (const float nowhere : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        const Scene scene = scene_of(
+            {{1, 1, 1}, {5, 1, 1}, {1, nowhere, 1}, {3.1f, 4.1f, 5.1f}, {3.2f, 4.1f, 5.1f}, {3.1f, 4.2f, 5.15f}});
+        const std::vector<Fragment> fragments = fragments_of(scene, unit_cells(ivec3(8)));
+        ASSERT_EQ(fragments.size(), 1u);
+        EXPECT_EQ(fragments[0].triangle, 1u);
+    }
 }
 
 TEST(SurfaceFragments, StopWhenCancelled) {
