@@ -107,6 +107,13 @@ void draw_curve(Canvas& canvas, const std::vector<vec2>& points, vec3 colour, bo
     for (const vec2 point : points) draw_mark(canvas, point, colour, papers);
 }
 
+/// Whether a quantity has any figure of ours, or of the paper's.
+bool has_figures(const MeasuredTable& table, const std::string& quantity, bool papers) {
+    return std::ranges::any_of(charted(table), [&](const MeasuredRow* row) {
+        return row->quantity == quantity && (papers ? row->paper : row->ours).has_value();
+    });
+}
+
 void draw_panel(Canvas& canvas, const MeasuredTable& table, const std::string& scene, vec2 corner, float width) {
     const Palette colours = palette(Theme::print);
     const float bottom = corner.y + panel_height - 46.0f;
@@ -209,7 +216,8 @@ void draw_legend(Canvas& canvas, const MeasuredTable& table, float top) {
     float x = margin;
     for (const bool papers : {false, true}) {
         float y = top + legend_line, widest = 0.0f;
-        for (std::size_t series = 0; series < quantities.size(); ++series) {
+        for (std::size_t series = 0; series < quantities.size(); ++series, y += legend_line) {
+            if (curves && !has_figures(table, quantities[series], papers)) continue;
             const vec3 colour = series_colour(curves ? series : papers ? 1 : 0);
             if (curves) {
                 const std::array<vec2, 2> line{vec2(x, y - 3.0f), vec2(x + sample, y - 3.0f)};
@@ -219,7 +227,6 @@ void draw_legend(Canvas& canvas, const MeasuredTable& table, float top) {
             const std::string label = (curves ? quantities[series] + ", " : "") + (papers ? "the paper's" : "ours");
             draw_text(canvas, {x + sample + 6.0f, y}, label, text);
             widest = std::max(widest, text_width(canvas, label, text));
-            y += legend_line;
         }
         x += sample + 6.0f + widest + 24.0f;
     }

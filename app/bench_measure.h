@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +12,8 @@
 #include "app/results.h"
 
 namespace sightlines {
+
+struct FieldScene;  // bench_field.h
 
 /// What all tables of one run share.
 struct BenchRun {
@@ -21,6 +24,7 @@ struct BenchRun {
     int repetitions = 3;
     std::function<void(const std::string&)> say;  ///< what is being measured; may be empty
     std::map<std::string, std::pair<double, double>> known_errors;
+    std::map<std::string, std::shared_ptr<const FieldScene>> field_scenes;  ///< by name, for the visibility field
 };
 
 /// A technique with the parameters that differ from the run's.

@@ -9,7 +9,7 @@ namespace sightlines {
 
 /// One figure as printed.
 struct PaperFigure {
-    std::string_view scene;     ///< as our scene of the same name
+    std::string_view scene;     ///< as our scene of the same name, or as its file
     std::string_view quantity;  ///< as in our rows
     double at = 0.0;            ///< what the table varies; 0: nothing
     double value = 0.0;
@@ -39,19 +39,40 @@ constexpr std::string_view compressed_visibility = "visibility error, compressed
 constexpr std::string_view compressed_shadow = "shadow error, compressed";
 constexpr std::string_view voxelization_time = "voxelization";
 constexpr std::string_view compression_time = "compression";
+constexpr std::string_view time_without_field = "time without the field";
+constexpr std::string_view time_with_field = "time with the field";
+constexpr std::string_view field_speed_up = "speed-up";
+constexpr std::string_view field_rmse = "RMSE";
+constexpr std::string_view field_rays = "rays traced";
+constexpr std::string_view field_bake = "baking";
+constexpr std::string_view field_memory = "memory of the field";
+constexpr std::string_view dense_memory = "memory, the paper's layout";
 }  // namespace quantity
 
 /// All figures of Wang 2017's table `number` (1 to 11), or of Figure 7 (`number` 0): those that its text gives.
 std::span<const PaperFigure> wang_2017(int number);
 
+/// All figures of Xu 2022 about one of our tables (1, or 5 to 9 for the figures, 0 for memory): those that its text
+/// gives. It gives no RMSE, and nothing of Figure 9.
+std::span<const PaperFigure> xu_2022(int number);
+
 /// The figure for these, where the paper has one.
 std::optional<double> find_figure(std::span<const PaperFigure> figures, std::string_view scene,
                                   std::string_view quantity, double at);
 
-constexpr std::string_view wang_2017_citation =
+/// Where figures are from.
+struct Paper {
+    std::string_view citation, hardware;
+    std::span<const PaperFigure> (*figures)(int number) = nullptr;  ///< by PaperTable::number
+};
+
+inline constexpr Paper wang_2017_paper{
     "L. Wang, X. Liang, C. Meng, V. Popescu: Fast Ray-Scene Intersection for Interactive Shadow Rendering with "
-    "Thousands "
-    "of Dynamic Lights. IEEE TVCG, 2017";
-constexpr std::string_view wang_2017_hardware = "Intel Core i7-4770, 3.5 GHz, 8 GB; NVIDIA GeForce GTX 1080";
+    "Thousands of Dynamic Lights. IEEE TVCG, 2017",
+    "Intel Core i7-4770, 3.5 GHz, 8 GB; NVIDIA GeForce GTX 1080", wang_2017};
+inline constexpr Paper xu_2022_paper{
+    "Y. Xu, Y. Jiang, C. Wang, K. Li, P. Zhou, G. Geng: Precomputed Discrete Visibility Fields for Real-Time "
+    "Ray-Traced Environment Lighting. 2022",
+    "NVIDIA GeForce RTX 3080, 1920 x 1080 pixels; baked on an Intel Core i9-10980XE", xu_2022};
 
 }  // namespace sightlines

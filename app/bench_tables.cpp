@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "app/bench_paper.h"
 #include "app/table.h"
 #include "techniques/base/error.h"
 #include "techniques/base/huge_buffer.h"
@@ -16,7 +15,7 @@ namespace {
 
 constexpr std::size_t scenes_when_quick = 2;
 
-constexpr std::array<PaperTable, 12> all_tables{{
+constexpr std::array<PaperTable, 19> all_tables{{
     {"voxel-rows/table1", "errors of voxel rows and of imperfect shadow maps", 1, ChartKind::dots, "", false,
      tables::errors_by_scene},
     {"voxel-rows/table2", "errors by the number of lights", 2, ChartKind::curves, "lights", false,
@@ -41,6 +40,20 @@ constexpr std::array<PaperTable, 12> all_tables{{
      tables::times_of_compression},
     {"voxel-rows/figure7", "errors of imperfect shadow maps by the number of points", 0, ChartKind::curves,
      "points for each light", false, tables::errors_by_samples},
+    {"visibility-field/table1", "speed-up by the samples of a pixel", 1, ChartKind::curves, "samples a pixel", false,
+     tables::field_speed_ups, &xu_2022_paper},
+    {"visibility-field/figure5", "times and errors with a field and without", 5, ChartKind::dots, "", true,
+     tables::field_pictures, &xu_2022_paper},
+    {"visibility-field/figure6", "errors by the number of point samples", 6, ChartKind::curves, "point samples", true,
+     tables::field_by_points, &xu_2022_paper},
+    {"visibility-field/figure7", "errors, times and memory by the size of the cells", 7, ChartKind::dots, "cm", true,
+     tables::field_by_cells, &xu_2022_paper},
+    {"visibility-field/figure8", "times by the samples of a pixel", 8, ChartKind::curves, "samples a pixel", true,
+     tables::field_by_samples, &xu_2022_paper},
+    {"visibility-field/figure9", "with the cells' labels and without", 9, ChartKind::dots, "", true,
+     tables::field_labels, &xu_2022_paper},
+    {"visibility-field/memory", "memory of the field, packed and as in the paper", 0, ChartKind::dots, "cm", true,
+     tables::field_memory, &xu_2022_paper},
 }};
 
 std::string setup_text(const BenchRun& run, const PaperTable& table) {
@@ -59,6 +72,12 @@ std::string setup_text(const BenchRun& run, const PaperTable& table) {
 }  // namespace
 
 std::span<const PaperTable> paper_tables() { return all_tables; }
+
+std::span<const PaperTable> tables_of(std::string_view technique) {
+    const auto is_of = [&](const PaperTable& table) { return table.name.substr(0, table.name.find('/')) == technique; };
+    const auto first = std::ranges::find_if(all_tables, is_of);
+    return {first, std::find_if_not(first, all_tables.end(), is_of)};
+}
 
 const PaperTable& find_table(std::string_view name) {
     const auto found = std::ranges::find(all_tables, name, &PaperTable::name);
@@ -113,7 +132,8 @@ MeasuredRow& add_figure(MeasuredTable& table, std::string_view scene, std::strin
     row.unit = unit;
     row.digits = digits;
     row.ours = ours;
-    row.paper = find_figure(wang_2017(find_table(table.name).number), scene, quantity, at);
+    const PaperTable& known = find_table(table.name);
+    row.paper = find_figure(known.paper->figures(known.number), scene, quantity, at);
     return table.rows.emplace_back(row);
 }
 
@@ -121,14 +141,14 @@ MeasuredTable measure_table(const PaperTable& table, BenchRun& run, Results& res
     MeasuredTable measured;
     measured.name = table.name;
     measured.title = table.title;
-    measured.paper = wang_2017_citation;
-    measured.paper_hardware = wang_2017_hardware;
+    measured.paper = table.paper->citation;
+    measured.paper_hardware = table.paper->hardware;
     measured.our_hardware = processor_name() + ", " + std::to_string(thread_count(results.threads())) + " threads";
-    measured.setup = setup_text(run, table);
     measured.chart = table.chart;
     measured.varied = table.varied;
     measured.log_values = table.log_values;
     table.measure(measured, run, results, progress);
+    if (measured.setup.empty()) measured.setup = setup_text(run, table);
     const auto without_paper =
         std::ranges::count_if(measured.rows, [](const MeasuredRow& row) { return !row.paper.has_value(); });
     if (without_paper > 0)

@@ -8,6 +8,7 @@
 
 #include "app/bench_measure.h"
 #include "app/bench_output.h"
+#include "app/bench_paper.h"
 
 namespace sightlines {
 
@@ -18,15 +19,19 @@ using MeasureTable = void (*)(MeasuredTable& table, BenchRun& run, Results& resu
 struct PaperTable {
     std::string_view name;   ///< "voxel-rows/table1"
     std::string_view title;  ///< as the paper's, in one line
-    int number = 0;          ///< for wang_2017(); 0: Figure 7
+    int number = 0;          ///< for Paper::figures
     ChartKind chart = ChartKind::dots;
     std::string_view varied;  ///< what a row's `at` is
     bool log_values = false;
     MeasureTable measure = nullptr;
+    const Paper* paper = &wang_2017_paper;
 };
 
-/// All of them, in the order of the paper.
+/// All of them, in the order of the papers.
 std::span<const PaperTable> paper_tables();
+
+/// The tables of one technique ("voxel-rows"); empty where there is none.
+std::span<const PaperTable> tables_of(std::string_view technique);
 
 /// InputError offers the nearest name.
 const PaperTable& find_table(std::string_view name);
@@ -64,6 +69,14 @@ void times_of_marching(MeasuredTable& table, BenchRun& run, Results& results, Pr
 void memory_by_resolution(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 void times_of_building(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 void times_of_compression(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
+/// Xu 2022.
+void field_speed_ups(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
+void field_pictures(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
+void field_by_points(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
+void field_by_cells(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
+void field_by_samples(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
+void field_labels(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
+void field_memory(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 }  // namespace tables
 
 }  // namespace sightlines

@@ -15,6 +15,7 @@
 #include "app/commands/flags.h"
 #include "techniques/base/error.h"
 #include "techniques/base/files.h"
+#include "techniques/scene/environment.h"
 
 namespace sightlines {
 namespace {
@@ -23,7 +24,7 @@ struct BenchFlags {
     std::string table, repetitions;
     SessionFlags session;
     CommonFlags common;
-    std::filesystem::path out;
+    std::filesystem::path out, environment;
     bool quick = false;
 };
 
@@ -94,6 +95,8 @@ BenchRun table_run(const BenchFlags& flags) {
     run.base.size = flags.quick ? ImageSize{160, 90} : ImageSize{480, 270};
     if (flags.quick) run.base.parameters["voxel_rows"] = {{"resolution", 64.0}, {"angle_step", 6.0}};
     run.base = session_with_flags(run.base, flags.session);
+    if (!flags.environment.empty()) read_environment(flags.environment);  // a bad one is refused now, not hours later
+    run.base.environment = flags.environment.string();
     if (!flags.session.scene.empty()) run.scenes = {run.base.scene};
     if (!flags.common.quiet)
         run.say = [](const std::string& what) { std::fprintf(stderr, "sightlines: %s\n", what.c_str()); };
@@ -127,6 +130,9 @@ CommandOutput run_bench(const BenchFlags& flags, Progress& progress) {
         outputs.push_back(run_first_hits(flags, progress));
     } else if (flags.table == "shadow-rays") {
         outputs.push_back(run_shadow_rays(flags, progress));
+    } else if (flags.table.ends_with("/all")) {
+        outputs =
+            run_tables(flags, tables_of(std::string_view(flags.table).substr(0, flags.table.find('/'))), progress);
     } else {
         outputs = run_tables(flags, {&find_table(flags.table), 1}, progress);
     }
@@ -144,7 +150,7 @@ CommandOutput run_bench(const BenchFlags& flags, Progress& progress) {
 
 /// CLI11's form: what is wrong with the name, empty where nothing is.
 std::string wrong_table(const std::string& name) {
-    std::vector<std::string> names{"shadow-rays", "first-hits", "all"};
+    std::vector<std::string> names{"shadow-rays", "first-hits", "voxel-rows/all", "visibility-field/all", "all"};
     for (const PaperTable& table : paper_tables()) names.emplace_back(table.name);
     if (std::ranges::find(names, name) != names.end()) return "";
     const std::string near = nearest_name(name, names);
@@ -154,14 +160,17 @@ std::string wrong_table(const std::string& name) {
 /// One line for each table.
 std::string listed_tables() {
     std::string text =
-        "Tables:\n  shadow-rays         voxel rows on both backends against Embree in every variant\n"
-        "  first-hits          where rays hit first by voxel rows, against Embree\n";
+        "Tables:\n  shadow-rays               voxel rows on both backends against Embree in every variant\n"
+        "  first-hits                where rays hit first by voxel rows, against Embree\n";
     for (const PaperTable& table : paper_tables()) {
         const std::string name(table.name);
         text +=
-            "  " + name + std::string(name.size() < 20 ? 20 - name.size() : 1, ' ') + std::string(table.title) + "\n";
+            "  " + name + std::string(name.size() < 26 ? 26 - name.size() : 1, ' ') + std::string(table.title) + "\n";
     }
-    return text + "  all                 all of these\n";
+    return text +
+           "  voxel-rows/all            those of the one technique\n"
+           "  visibility-field/all      those of the other\n"
+           "  all                       all of these\n";
 }
 
 }  // namespace
@@ -176,6 +185,10 @@ void add_bench_command(CLI::App& app, Command& chosen) {
     command.add_option("--repetitions", flags->repetitions, "How often each is measured; the median counts")
         ->type_name("R");
     command.add_flag("--quick", flags->quick, "A small picture with few lights: shows that it works, measures little");
+    command
+        .add_option("--environment", flags->environment,
+                    "The light of the visibility field's tables, an .hdr picture; else a built-in sky")
+        ->type_name("FILE");
     command
         .add_option("--out", flags->out,
                     "Write each table into this folder: Markdown and CSV, and a chart (SVG) or JSON")

@@ -1,27 +1,41 @@
 #include "techniques/visibility_field/measure.h"
 
 #include <algorithm>
-#include <limits>
+#include <vector>
 
 namespace sightlines::visibility_field {
+namespace {
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+}  // namespace
 
 FieldMeasurement measure(const VisibilityField& field, const EmbreeScene& embree, const EnvironmentRequest& request,
                          int repetitions, Progress& progress) {
     FieldMeasurement measured;
-    measured.seconds_without = measured.seconds_with = measured.seconds_sampling =
-        std::numeric_limits<double>::infinity();
-    for (int k = 0; k < std::max(1, repetitions); ++k) {
+    std::vector<double> without, with, sampling;
+    for (int k = -1; k < std::max(1, repetitions); ++k) {
         const EnvironmentResult reference = render_environment(nullptr, embree, request, progress);
         const EnvironmentResult ours = render_environment(&field, embree, request, progress);
-        double sampling = 0.0;
-        count_samples(&field, request, sampling);
-        measured.seconds_without = std::min(measured.seconds_without, reference.seconds);
-        measured.seconds_with = std::min(measured.seconds_with, ours.seconds);
-        measured.seconds_sampling = std::min(measured.seconds_sampling, sampling);
-        measured.without = reference.counts;
-        measured.with = ours.counts;
-        measured.error = compare_irradiance(ours, reference, request);
+        double sampling_seconds = 0.0;
+        count_samples(&field, request, sampling_seconds);
+        if (k < 0) {
+            measured.without = reference.counts;
+            measured.with = ours.counts;
+            measured.error = compare_irradiance(ours, reference, request);
+            continue;
+        }
+        without.push_back(reference.seconds);
+        with.push_back(ours.seconds);
+        sampling.push_back(sampling_seconds);
     }
+    measured.seconds_without = median(without);
+    measured.seconds_with = median(with);
+    measured.seconds_sampling = median(sampling);
     return measured;
 }
 

@@ -5,7 +5,7 @@
 
 namespace sightlines::visibility_field {
 
-/// Seconds are the best of all repetitions, which take turns so that a machine that is busy for a while hurts both
+/// Seconds are medians of all repetitions, which take turns so that a machine that is busy for a while hurts both
 /// alike.
 struct FieldMeasurement {
     double seconds_without = 0.0, seconds_with = 0.0;
@@ -16,7 +16,7 @@ struct FieldMeasurement {
     double speed_up() const { return seconds_with > 0.0 ? seconds_without / seconds_with : 0.0; }
 };
 
-/// The picture is made `repetitions` times each way (at least once).
+/// The picture is made `repetitions` times each way (at least once), after one round that does not count.
 FieldMeasurement measure(const VisibilityField& field, const EmbreeScene& embree, const EnvironmentRequest& request,
                          int repetitions, Progress& progress);
 

@@ -98,12 +98,13 @@ std::string svg_text(const MeasuredTable& table) {
     return {bytes.begin(), bytes.end()};
 }
 
-TEST(PaperTables, AreElevenAndFigure7AndEachIsFoundByItsName) {
-    ASSERT_EQ(paper_tables().size(), 12u);
+TEST(PaperTables, OfVoxelRowsAreElevenAndFigure7AndEachIsFoundByItsName) {
+    ASSERT_EQ(tables_of("voxel-rows").size(), 12u);
     for (int number = 1; number <= 11; ++number)
         EXPECT_EQ(find_table("voxel-rows/table" + std::to_string(number)).number, number);
     EXPECT_EQ(find_table("voxel-rows/figure7").number, 0);
-    for (const PaperTable& table : paper_tables()) EXPECT_FALSE(wang_2017(table.number).empty()) << table.name;
+    for (const PaperTable& table : tables_of("voxel-rows"))
+        EXPECT_FALSE(table.paper->figures(table.number).empty()) << table.name;
 }
 
 TEST(PaperTables, OfferTheNearestNameForAMisspeltOne) {
