@@ -4,16 +4,9 @@
 #include <array>
 #include <fstream>
 
+#include "techniques/base/median.h"
+
 namespace sightlines {
-namespace {
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
-}  // namespace
 
 bool deforms(std::string_view scene) { return scene == "bear" || scene == "park"; }
 

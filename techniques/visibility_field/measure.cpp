@@ -3,16 +3,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "techniques/base/median.h"
+
 namespace sightlines::visibility_field {
-namespace {
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
-}  // namespace
 
 FieldMeasurement measure(const VisibilityField& field, const EmbreeScene& embree, const EnvironmentRequest& request,
                          int repetitions, Progress& progress) {

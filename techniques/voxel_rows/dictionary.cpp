@@ -112,20 +112,15 @@ Match map_row(const Mapping<length>& mapping, const Asked<length>& asked, std::u
     return compared(mapping, asked, random_place(mapping, asked.row));
 }
 
-/// The rows of the dictionary whose prefixes are in [begin, end).
-template <int length>
-Range range_of(const SortedRows<length>& sorted, std::uint64_t begin, std::uint64_t end) {
-    const auto place = [&](std::uint64_t prefix) {
-        return static_cast<std::uint32_t>(std::ranges::lower_bound(sorted.prefix, prefix) - sorted.prefix.begin());
-    };
-    return {place(begin), place(end) - place(begin)};
-}
-
 /// The rows of the dictionary that lie in the order where a deal's rows do.
 template <int length>
 Range range_of_deal(const SortedRows<length>& sorted, const RowDeals<length>& rows, std::size_t deal) {
-    return range_of(sorted, deal == 0 ? 0 : rows.cuts[deal - 1],
-                    deal == rows.cuts.size() ? ~std::uint64_t{0} : rows.cuts[deal]);
+    const auto place = [&](std::uint64_t prefix) {
+        return static_cast<std::uint32_t>(std::ranges::lower_bound(sorted.prefix, prefix) - sorted.prefix.begin());
+    };
+    const std::uint32_t first = deal == 0 ? 0 : place(rows.cuts[deal - 1]);
+    const auto all = static_cast<std::uint32_t>(sorted.rows.size());
+    return {first, (deal == rows.cuts.size() ? all : place(rows.cuts[deal])) - first};
 }
 
 template <int length>
