@@ -37,8 +37,8 @@ void errors_by_scene(MeasuredTable& table, BenchRun& run, Results& results, Prog
 }
 
 void errors_by_lights(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress) {
-    const std::vector<std::uint32_t> counts =
-        run.quick ? std::vector<std::uint32_t>{64, 128, 512} : std::vector<std::uint32_t>{512, 1024, 2048, 4096, 10000};
+    const std::vector<std::uint32_t> counts = run.quick ? std::vector<std::uint32_t>{64, 128, 512}
+                                                        : std::vector<std::uint32_t>{64, 512, 1024, 2048, 4096, 10000};
     for (const std::string& scene : scenes_for(table, run, std::span(paper_scenes).first(2)))
         for (const std::uint32_t lights : counts) {
             say(run, table, scene + ", " + count_text(lights) + " lights");

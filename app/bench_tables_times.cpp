@@ -1,6 +1,9 @@
 // Wang 2017, tables 5 to 8, 10 and 11: times and memory.
 #include <algorithm>
+#include <any>
 #include <array>
+#include <memory>
+#include <utility>
 
 #include "app/bench_paper.h"
 #include "app/bench_tables.h"
@@ -24,22 +27,51 @@ struct Measuring {
 };
 using Ask = std::function<double()>;
 
-/// Statistics of a structure that is built anew and let go.
-Statistics build_once(const Session& session, Measuring& m) {
-    const auto scene = m.results.scene(session, m.progress);
-    const Technique& technique = find_technique(session.technique);
+/// Two moments of a scene that moves, whose structures are built by turns, each with what the one before has left.
+struct Moments {
+    Session session;
+    std::array<Shared<Scene>, 2> scenes;
+    std::any kept = {};
+    std::size_t built = 0;
+};
+
+std::shared_ptr<Moments> two_moments(const Session& session, Measuring& m) {
+    constexpr double frame_s = 1.0 / 30.0;
+    Session later = session;
+    later.time_s += frame_s;
+    const auto first = m.results.scene(session, m.progress);
+    return std::make_shared<Moments>(Moments{session, {first, m.results.scene(later, m.progress)}});
+}
+
+Structure build_anew(const Session& session, const Scene& scene, const std::any& kept, Measuring& m) {
     BuildRequest request;
-    request.scene = &scene->value;
+    request.scene = &scene;
     request.parameters = technique_parameters(session);
     request.backend = m.results.backend(session);
     request.threads = m.results.threads();
-    return technique.statistics(technique.build(request, m.progress));
+    request.kept = kept;
+    return find_technique(session.technique).build(request, m.progress);
 }
 
-/// A picture, with its structure built for it where `rebuilt`.
-Ask picture_ask(const Prepared& prepared, bool rebuilt, Measuring& m) {
-    return [prepared, rebuilt, &m] {
-        const double building = rebuilt ? build_once(prepared.session, m).build_seconds : 0.0;
+/// Seconds of the next moment's structure.
+double build_next(Moments& moments, Measuring& m) {
+    const Technique& technique = find_technique(moments.session.technique);
+    const Scene& scene = moments.scenes[moments.built++ % moments.scenes.size()]->value;
+    const Structure structure = build_anew(moments.session, scene, std::exchange(moments.kept, {}), m);
+    if (technique.kept) moments.kept = technique.kept(structure);
+    return technique.statistics(structure).build_seconds;
+}
+
+/// Statistics of a structure that is built and let go.
+Statistics build_once(const Session& session, Measuring& m) {
+    const auto scene = m.results.scene(session, m.progress);
+    return find_technique(session.technique).statistics(build_anew(session, scene->value, {}, m));
+}
+
+/// A picture, and where there are moments, the next one's structure.
+Ask picture_ask(const Prepared& prepared, const std::shared_ptr<Moments>& moments, Measuring& m) {
+    return [prepared, moments, &m] {
+        const double building = moments ? build_next(*moments, m) : 0.0;
         return building + render_seconds(prepared, m.results, m.progress, m.device);
     };
 }
@@ -54,9 +86,9 @@ void add_device(Measuring& m, const std::string& device) {
 
 void add_deforming_note(MeasuredTable& table) {
     table.notes.push_back(
-        "Voxel rows are compressed. Where the scene deforms (bear, park) they are not, and their building is part of "
-        "the "
-        "time, as in the paper.");
+        "Voxel rows are compressed. Where the scene deforms (bear, park) they are not, and building them for the next "
+        "of "
+        "two moments is part of the time: what has moved, where the paper builds the whole scene.");
 }
 
 /// The coarsest shadow maps that err at most as much as `limit_percent`; the finest where none does.
@@ -74,18 +106,18 @@ int matching_shadow_maps(std::string_view scene, double limit_percent, Measuring
     return resolutions.back();
 }
 
-/// What a light costs in `row`, as a multiple of what it costs in `first`.
-MeasuredRow time_per_light(const MeasuredRow& row, const MeasuredRow& first) {
-    const auto relative = [&](const std::optional<double>& time, const std::optional<double>& time_first) {
-        return time && time_first ? std::optional(*time / row.at / (*time_first / first.at)) : std::nullopt;
+/// What a light costs in `row`, as a multiple of what it costs in `base`.
+MeasuredRow time_per_light(const MeasuredRow& row, const MeasuredRow& base) {
+    const auto relative = [&](const std::optional<double>& time, const std::optional<double>& base_time) {
+        return time && base_time ? std::optional(*time / row.at / (*base_time / base.at)) : std::nullopt;
     };
     MeasuredRow made = row;
     made.quantity = quantity::time_per_light;
     made.unit = "×";
     made.digits = 2;
     made.in_chart = false;
-    made.ours = relative(row.ours, first.ours);
-    made.paper = relative(row.paper, first.paper);
+    made.ours = relative(row.ours, base.ours);
+    made.paper = relative(row.paper, base.paper);
     return made;
 }
 
@@ -107,9 +139,11 @@ void times_by_scene(MeasuredTable& table, BenchRun& run, Results& results, Progr
         const Prepared rows = prepare_for(scene, rows_for(scene), m);
         const Prepared maps = prepare_for(scene, {"shadow_maps", {{"resolution", texels}}}, m);
         const Prepared tracing = prepare_for(scene, {"ray_tracing", {}}, m);
-        std::vector<Ask> asks{picture_ask(maps, false, m), picture_ask(rows, deforms(scene), m)};
+        const auto rows_moments = deforms(scene) ? two_moments(rows.session, m) : nullptr;
+        const auto traced_moments = moves(scene) ? two_moments(tracing.session, m) : nullptr;
+        std::vector<Ask> asks{picture_ask(maps, nullptr, m), picture_ask(rows, rows_moments, m)};
         for (int variant = 0; variant < embree_variants; ++variant)
-            asks.push_back(picture_ask(with_values(tracing, {{"variant", variant}}), moves(scene), m));
+            asks.push_back(picture_ask(with_values(tracing, {{"variant", variant}}), traced_moments, m));
         const std::vector<double> seconds = median_seconds(run, asks, progress);
         render_seconds(rows, results, progress, rows_device);
         const double traced = *std::min_element(seconds.begin() + 2, seconds.end());
@@ -127,24 +161,28 @@ void times_by_scene(MeasuredTable& table, BenchRun& run, Results& results, Progr
 
 void times_by_lights(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress) {
     const std::vector<std::uint32_t> counts = run.quick ? std::vector<std::uint32_t>{128, 256, 512}
-                                                        : std::vector<std::uint32_t>{512, 1024, 2048, 4096, 10000};
+                                                        : std::vector<std::uint32_t>{64, 512, 1024, 2048, 4096, 10000};
+    const std::uint32_t base_lights = run.quick ? 512 : 1024;
     Measuring m{table, run, results, progress};
     for (const std::string& scene : scenes_for(table, run, std::span(paper_scenes).first(5))) {
         say(run, table, scene);
         std::vector<Ask> asks;
+        const auto moments = deforms(scene) ? two_moments(session_of(run, scene, rows_for(scene)), m) : nullptr;
         for (const std::uint32_t lights : counts)
-            asks.push_back(picture_ask(prepare_for(scene, rows_for(scene), m, lights), deforms(scene), m));
+            asks.push_back(picture_ask(prepare_for(scene, rows_for(scene), m, lights), moments, m));
         const std::vector<double> seconds = median_seconds(run, asks, progress);
         const std::size_t first = table.rows.size();
         for (std::size_t i = 0; i < counts.size(); ++i)
             add_figure(table, scene, quantity::render_time, 1e3 * seconds[i], "ms", 1, counts[i],
                        count_text(counts[i]) + " lights");
-        for (std::size_t i = 1; i < counts.size(); ++i)
-            table.rows.push_back(time_per_light(table.rows[first + i], table.rows[first]));
+        const std::size_t base =
+            first + static_cast<std::size_t>(std::ranges::find(counts, base_lights) - counts.begin());
+        for (std::size_t i = 0; i < counts.size(); ++i)
+            if (counts[i] != base_lights) table.rows.push_back(time_per_light(table.rows[first + i], table.rows[base]));
     }
     add_device(m, m.device);
     add_deforming_note(table);
-    table.notes.push_back("Time per light, to the fewest: 1 is exactly linear, less is better than linear.");
+    table.notes.push_back("Time per light: to that of " + count_text(base_lights) + " lights; 1 is exactly linear.");
 }
 
 void times_of_marching(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress) {
@@ -214,7 +252,7 @@ void times_of_compression(MeasuredTable& table, BenchRun& run, Results& results,
         const Prepared plain = prepare_for(scene, rows_with(false), m);
         const Prepared packed = prepare_for(scene, rows_with(true), m);
         const std::vector<double> seconds =
-            median_seconds(run, {picture_ask(plain, false, m), picture_ask(packed, false, m)}, progress);
+            median_seconds(run, {picture_ask(plain, nullptr, m), picture_ask(packed, nullptr, m)}, progress);
         add_figure(table, scene, quantity::uncompressed, 1.0 / seconds[0], "frames/s", 2);
         add_figure(table, scene, quantity::compressed, 1.0 / seconds[1], "frames/s", 2);
     }

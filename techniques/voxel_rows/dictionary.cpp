@@ -16,8 +16,10 @@ namespace {
 constexpr std::uint32_t most_looked_at = 64;        ///< rows of the dictionary for one that matches some down-sampled
 constexpr std::uint32_t fewest_looked_at = 16;      ///< of those that match it best
 constexpr std::uint32_t most_for_left_over = 1024;  ///< the same for one that is left over
-constexpr int second_shift = 4;                     ///< half of what becomes one voxel at step_to_look_in
 constexpr int step_to_look_in = 3;  ///< the nearest is looked for among all that match down-sampled by 8, or more
+constexpr std::uint32_t near_enough = 128;   ///< no nearer row is looked for below such a part of the lights
+constexpr std::array later_shifts{4, 2, 6};  ///< half of what becomes one voxel at step_to_look_in, and quarters
+constexpr double least_distance = 0.4;       ///< for a later look, of the mean over all distinct rows
 constexpr std::uint32_t most_packed_rows = 1u << 20u;
 constexpr std::size_t rows_between_checks = 1024;
 
@@ -93,6 +95,7 @@ Match choose(const Mapping<length>& mapping, const Matching& matching, const Ask
                            ? nearest_round(mapping.sorted, asked, matching.group.range, fewest_looked_at, papers)
                            : papers;
     if (left_over) return nearest_round(mapping.sorted, asked, matching.group.range, most_for_left_over, near);
+    if (std::uint64_t{near.distance.lights} * near_enough < asked.probes.lights()) return near;
     const auto wider = find_matching(mapping.sorted, asked.row, asked.place, step_to_look_in);
     return nearest_round(mapping.sorted, asked, wider->group.range, most_looked_at, near);
 }
@@ -148,7 +151,7 @@ MappedCounts map_deal(const Mapping<length>& mapping, const RowDeals<length>& ro
 
 /// Looks for rows that are nearer among those that match shifted and down-sampled.
 template <int length>
-MappedCounts look_again(const Mapping<length>& mapping, const RowDeals<length>& rows, std::size_t deal,
+MappedCounts look_again(const Mapping<length>& mapping, RowDeals<length>& rows, std::size_t deal,
                         const Progress& progress) {
     MappedCounts counts;
     const Range alike = range_of_deal(mapping.sorted, rows, deal);
@@ -163,6 +166,7 @@ MappedCounts look_again(const Mapping<length>& mapping, const RowDeals<length>& 
         const Match match = nearest_round(mapping.sorted, asked, matching->group.range, most_looked_at, known);
         if (match.distance == known.distance) continue;
         counts.differing_lights -= std::int64_t{dealt.distance - match.distance.lights} * dealt.count;
+        rows.distance(k) = match.distance.lights;
         mapping.index_of_id[dealt.id] = mapping.sorted.index[match.place];
     }
     return counts;
@@ -194,12 +198,17 @@ MappedCounts map_rows(RowDeals<length> rows, const std::vector<RowBits<length>>&
                                    [&](std::size_t deal) { return map_deal(mapping, rows, deal, progress); });
     if (options.leftovers == Leftovers::random) return total;
 
-    rows = deal_again(rows, second_shift, options.threads, progress);
-    progress.begin("looking for nearer rows", static_cast<std::int64_t>(rows.deals()));
-    const SortedRows<length> moved = sort_rows(dictionary, second_shift, options.threads, progress);
-    const Mapping<length> again{options, resolution, moved, {}, index_of_id};
-    total += map_deals(rows.deals(), options.threads, progress,
-                       [&](std::size_t deal) { return look_again(again, rows, deal, progress); });
+    const double mean =
+        static_cast<double>(total.differing_lights) / static_cast<double>(std::max<std::size_t>(1, rows.rows()));
+    const auto least = static_cast<std::uint32_t>(least_distance * mean) + 1;
+    for (const int shift : later_shifts) {
+        rows = deal_again(rows, shift, least, options.threads, progress);
+        progress.begin("looking for nearer rows", static_cast<std::int64_t>(rows.deals()));
+        const SortedRows<length> moved = sort_rows(dictionary, shift, options.threads, progress);
+        const Mapping<length> again{options, resolution, moved, {}, index_of_id};
+        total += map_deals(rows.deals(), options.threads, progress,
+                           [&](std::size_t deal) { return look_again(again, rows, deal, progress); });
+    }
     return total;
 }
 

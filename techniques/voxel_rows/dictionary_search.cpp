@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 
 #include "techniques/base/parallel.h"
+#include "techniques/base/parallel_sort.h"
 #include "techniques/voxel_rows/row_deals.h"
 
 namespace sightlines::voxel_rows {
@@ -40,7 +41,8 @@ SortKey<length> sort_key(const RowBits<length>& row, int shift) {
 
 /// Fills rows, prefix, fine and index.
 template <int length>
-void put_in_order(const std::vector<RowBits<length>>& rows, SortedRows<length>& sorted, const Progress& progress) {
+void put_in_order(const std::vector<RowBits<length>>& rows, SortedRows<length>& sorted, int threads,
+                  const Progress& progress) {
     struct Numbered {
         std::uint64_t prefix, fine;
         std::uint32_t index;
@@ -51,9 +53,8 @@ void put_in_order(const std::vector<RowBits<length>>& rows, SortedRows<length>& 
         const RowBits<length> moved = shifted(row, sorted.shift);
         order.push_back({coarse_prefix(moved), fine_key(moved), static_cast<std::uint32_t>(order.size())});
     }
-    std::uint32_t compared = 0;
-    std::ranges::sort(order, [&](const Numbered& a, const Numbered& b) {
-        if (++compared % (1u << 16u) == 0) progress.check();
+    sort_in_parallel(order, threads, [&](const Numbered& a, const Numbered& b) {
+        progress.check();
         if (a.prefix != b.prefix) return a.prefix < b.prefix;
         if (a.fine != b.fine) return a.fine < b.fine;
         return sort_key(rows[a.index], sorted.shift) < sort_key(rows[b.index], sorted.shift);
@@ -163,7 +164,7 @@ template <int length>
 SortedRows<length> sort_rows(const std::vector<RowBits<length>>& rows, int shift, int threads, Progress& progress) {
     SortedRows<length> sorted;
     sorted.shift = shift;
-    put_in_order(rows, sorted, progress);
+    put_in_order(rows, sorted, threads, progress);
     sorted.groups.resize(rows.size());
     parallel_for(coarsest_step + 1, threads, [&](std::int64_t step) {
         if (step == 0)

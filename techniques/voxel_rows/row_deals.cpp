@@ -92,17 +92,18 @@ RowDeals<length> deal_rows(std::vector<DistinctRows<length>> parts, int threads,
 }
 
 template <int length>
-RowDeals<length> deal_again(const RowDeals<length>& dealt, int shift, int threads, Progress& progress) {
+RowDeals<length> deal_again(const RowDeals<length>& dealt, int shift, std::uint32_t least_distance, int threads,
+                            Progress& progress) {
     const auto visit = [&](std::size_t deal, const auto& take) {
         for (std::size_t place = dealt.first[deal]; place < dealt.first[deal + 1]; ++place)
-            if (const DealtRow<length> row = dealt[place]; row.distance != 0) take(row);
+            if (const DealtRow<length> row = dealt[place]; row.distance >= least_distance) take(row);
     };
     return deal_out<length>(Sources<decltype(visit)>{dealt.deals(), dealt.rows(), visit}, shift, threads, progress);
 }
 
 #define SIGHTLINES_FOR_ROW_LENGTH(length)                                                   \
     template RowDeals<length> deal_rows(std::vector<DistinctRows<length>>, int, Progress&); \
-    template RowDeals<length> deal_again(const RowDeals<length>&, int, int, Progress&);
+    template RowDeals<length> deal_again(const RowDeals<length>&, int, std::uint32_t, int, Progress&);
 SIGHTLINES_FOR_ROW_LENGTH(1)
 SIGHTLINES_FOR_ROW_LENGTH(2)
 SIGHTLINES_FOR_ROW_LENGTH(4)

@@ -83,8 +83,9 @@ struct RowDeals {
 template <int length>
 RowDeals<length> deal_rows(std::vector<DistinctRows<length>> parts, int threads, Progress& progress);
 
-/// Deals those out again whose distance is not 0, shifted by `shift`.
+/// Deals those out again whose distance is at least `least_distance`, shifted by `shift`.
 template <int length>
-RowDeals<length> deal_again(const RowDeals<length>& dealt, int shift, int threads, Progress& progress);
+RowDeals<length> deal_again(const RowDeals<length>& dealt, int shift, std::uint32_t least_distance, int threads,
+                            Progress& progress);
 
 }  // namespace sightlines::voxel_rows

@@ -383,14 +383,14 @@ TEST(RowDeals, HoldEveryDistinctRowOnceInTheOrderOfTheirPrefixes) {
         ASSERT_EQ(row.row, parts[k % 3].rows[k / 3]);
         ASSERT_EQ(row.count, k % 5);
         ASSERT_EQ(row.id, parts[k % 3].first_id + k / 3);
-        dealt.distance(place) = k % 2;
+        dealt.distance(place) = k % 2 + 1;
     }
     ASSERT_EQ(dealt.rows(), seen.size());
     expect_in_order(dealt, 0);
-    const RowDeals<4> again = deal_again(dealt, 4, 2, progress);
+    const RowDeals<4> again = deal_again(dealt, 4, 2u, 2, progress);
     ASSERT_EQ(again.rows(), 50'000u);
     for (std::size_t place = 0; place < again.rows(); ++place) {
-        ASSERT_EQ(again[place].distance, 1u);
+        ASSERT_EQ(again[place].distance, 2u);
         ASSERT_EQ(again[place].row.words[3] % 2, 1u);
     }
     expect_in_order(again, 4);
