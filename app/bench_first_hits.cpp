@@ -136,8 +136,8 @@ TextTable table_from_bench(const FirstHitBench& bench) {
     TextTable table;
     table.heading = {
         "rays", "M rays/s", "agree %", "median error, m", "voxels: median", "90th percentile", "median of the signed"};
-    table.align.assign(table.heading.size(), Align::right);
-    table.align.front() = Align::left;
+    table.align.assign(table.heading.size(), TableAlign::right);
+    table.align.front() = TableAlign::left;
     for (const FirstHitRow& row : bench.rows)
         table.rows.push_back({row.key, fixed_text(1e-6 * static_cast<double>(row.rays) / row.seconds, 1),
                               fixed_text(row.agree_percent, 2), fixed_text(row.median_m, 3),

@@ -18,7 +18,8 @@ std::string setting_text(const MeasuredRow& row) { return row.setting.empty() ? 
 TextTable table_for_people(const MeasuredTable& measured) {
     TextTable table;
     table.heading = {"scene", "quantity", "at", "unit", "ours", "paper", "ours / paper"};
-    table.align = {Align::left, Align::left, Align::right, Align::left, Align::right, Align::right, Align::right};
+    table.align = {TableAlign::left,  TableAlign::left,  TableAlign::right, TableAlign::left,
+                   TableAlign::right, TableAlign::right, TableAlign::right};
     for (const MeasuredRow& row : measured.rows)
         table.rows.push_back({row.scene, row.quantity, setting_text(row), row.unit, figure_text(row.ours, row.digits),
                               figure_text(row.paper, row.digits), figure_text(ratio_to_paper(row), 2)});

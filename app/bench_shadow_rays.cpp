@@ -150,7 +150,7 @@ std::string heading_from_bench(const ShadowRayBench& bench) {
 TextTable table_from_bench(const ShadowRayBench& bench) {
     TextTable table;
     table.heading = {"technique", "M rays/s", "times best Embree", "blocked %", "s, fastest to slowest"};
-    table.align = {Align::left, Align::right, Align::right, Align::right, Align::right};
+    table.align = {TableAlign::left, TableAlign::right, TableAlign::right, TableAlign::right, TableAlign::right};
     const double best = best_embree(bench);
     for (const BenchRow& row : bench.rows) {
         const auto rate = median_rays_per_second(row);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 #include "techniques/base/error.h"
+#include "techniques/baselines/baselines.h"
 #include "techniques/voxel_rows/dictionary.h"
 #include "techniques/voxel_rows/voxel_rows.h"
 
@@ -118,6 +120,71 @@ bool is_row_blocked(const VoxelRowPicture& picture) {
     return false;
 }
 
+bool is_marching(const Session& session) {
+    return session.technique == "voxel_marching" || session.technique == "row_marching";
+}
+
+std::string cells_title(const Session& session) { return is_marching(session) ? "occupied voxels" : ""; }
+
+std::vector<ValuedBox> cells_of(const Session& session, const Structure& structure) {
+    std::vector<ValuedBox> cells;
+    if (is_marching(session))
+        for (const Box3& box : baselines::occupied_boxes(structure)) cells.push_back({box, 0.0f});
+    return cells;
+}
+
+std::shared_ptr<const std::vector<ValuedBox>> cells_of(const Session& session, const Shared<BuiltStructure>& structure,
+                                                       UnpackedVoxels& unpacked) {
+    if (!unpacked.boxes || unpacked.boxed.lock() != structure) {
+        unpacked.boxes = std::make_shared<const std::vector<ValuedBox>>(cells_of(session, structure->value.structure));
+        unpacked.boxed = structure;
+    }
+    return unpacked.boxes;
+}
+
+/// Near is strong: each map from its least number that is not "nothing there" to its greatest.
+PictureMap picture_map(const baselines::LookedUpMap& map) {
+    PictureMap picture{map.title, map.side, {}, map.asked};
+    float least = std::numeric_limits<float>::infinity(), most = 0.0f;
+    for (const float near : map.nearness) {
+        if (near > 0.0f) least = std::min(least, near);
+        most = std::max(most, near);
+    }
+    for (const float near : map.nearness)
+        picture.values.push_back(near <= 0.0f   ? 0.0f
+                                 : most > least ? 0.15f + 0.85f * (near - least) / (most - least)
+                                                : 1.0f);
+    return picture;
+}
+
+std::vector<PictureMap> maps_of(const Session& session, const SelectedRay& ray, const Structure& structure) {
+    std::vector<PictureMap> maps;
+    if (session.technique == "shadow_maps")
+        for (const auto& map : baselines::looked_up_maps(structure, ray.request)) maps.push_back(picture_map(map));
+    if (session.technique == "imperfect_shadow_maps")
+        for (const auto& map : baselines::looked_up_imperfect_maps(structure, ray.request))
+            maps.push_back(picture_map(map));
+    return maps;
+}
+
+/// Each piece of geometry once.
+std::vector<TraceGeometry> touched(const Trace& trace) {
+    std::vector<TraceGeometry> pieces;
+    for (const TraceStep& step : trace.steps)
+        for (const TraceGeometry& piece : step.geometry)
+            if (std::ranges::find(pieces, piece) == pieces.end()) pieces.push_back(piece);
+    return pieces;
+}
+
+/// A ray to the sun is shown as far as the scene goes, or the scene would be a speck at its end.
+Segment shown_ray(const SelectedRay& ray, const Scene& scene) {
+    const Segment whole = ray.trace.ray;
+    const vec3 along = whole.target - whole.origin;
+    const float length = glm::length(along), most = 0.5f * scene.bounds.diagonal();
+    if (ray.request.light.kind != LightKind::directional || length <= most) return whole;
+    return {whole.origin, whole.origin + along / length * most};
+}
+
 }  // namespace
 
 std::span<const FigureRow> figures() {
@@ -126,7 +193,9 @@ std::span<const FigureRow> figures() {
                   "The rotated voxelization that serves one ray: its row, the bits that count, the ray and its twin."},
         FigureRow{
             "dictionary", "Dictionary", "voxel_rows", true,
-            "The ray's row and the one that stands for it, bit under bit and in space; the dictionary in charts."}};
+            "The ray's row and the one that stands for it, bit under bit and in space; the dictionary in charts."},
+        FigureRow{"ray", "Ray in the scene", "", false,
+                  "The scene cut open along the ray, what each step touched, and the maps that were looked up."}};
     return rows;
 }
 
@@ -145,7 +214,7 @@ const FigureRow& find_figure(std::string_view name) {
 }
 
 bool can_show(const FigureRow& figure, const Session& session) {
-    if (session.technique != figure.technique) return false;
+    if (!figure.technique.empty() && session.technique != figure.technique) return false;
     return !figure.compressed || voxel_rows::is_compressed(technique_parameters(session));
 }
 
@@ -197,8 +266,25 @@ DictionaryPicture dictionary_picture(const Session& session, const SelectedRay& 
     return picture;
 }
 
+RayPicture ray_picture(const Session& session, const SelectedRay& ray, Results& results, Progress& progress,
+                       UnpackedVoxels& unpacked) {
+    const auto structure = results.structure(session, progress);
+    const auto scene = results.scene(session, progress);
+    RayPicture picture;
+    picture.scene = {scene, &scene->value};
+    picture.boxes = cells_of(session, structure, unpacked);
+    picture.boxes_title = cells_title(session);
+    picture.maps = maps_of(session, ray, structure->value.structure);
+    picture.recorded = touched(ray.trace);
+    picture.ray = shown_ray(ray, scene->value);
+    picture.blocked = ray.trace.blocked;
+    picture.truly_blocked = ray.truly_blocked;
+    return picture;
+}
+
 InsidePicture inside_picture(const Session& session, const SelectedRay& ray, Results& results, Progress& progress,
                              UnpackedVoxels& unpacked) {
+    if (shown_figure(session) == "ray") return ray_picture(session, ray, results, progress, unpacked);
     if (shown_figure(session) == "dictionary") return dictionary_picture(session, ray, results, progress, unpacked);
     return voxel_row_picture(session, ray, results, progress, unpacked);
 }

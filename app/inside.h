@@ -15,7 +15,7 @@ namespace sightlines {
 struct FigureRow {
     std::string_view name;       ///< "voxel-row"
     std::string_view title;      ///< "Row of voxels"
-    std::string_view technique;  ///< whose inside it shows
+    std::string_view technique;  ///< whose inside it shows; empty: any
     bool compressed = false;     ///< only of a structure that is compressed
     std::string_view about;      ///< one sentence
 };
@@ -48,6 +48,8 @@ struct UnpackedVoxels {
     std::vector<Direction> latest;  ///< newest first, at most 4
     std::weak_ptr<const Made<BuiltStructure>> summarised;
     std::shared_ptr<const DictionarySummary> summary;  ///< of that structure
+    std::weak_ptr<const Made<BuiltStructure>> boxed;
+    std::shared_ptr<const std::vector<ValuedBox>> boxes;  ///< of that structure, for ray_picture
 };
 
 /// The voxelization that serves the ray, with the scene around it. The session's technique must be voxel_rows.
@@ -57,6 +59,10 @@ VoxelRowPicture voxel_row_picture(const Session& session, const SelectedRay& ray
 /// The same before it was compressed, and what compression made of the row. The structure must be compressed.
 DictionaryPicture dictionary_picture(const Session& session, const SelectedRay& ray, Results& results,
                                      Progress& progress, UnpackedVoxels& unpacked);
+
+/// The ray in the scene, with what the technique keeps of it: occupied voxels, maps of its light. Any technique.
+RayPicture ray_picture(const Session& session, const SelectedRay& ray, Results& results, Progress& progress,
+                       UnpackedVoxels& unpacked);
 
 /// What shown_figure(session), which must not be empty, shows.
 InsidePicture inside_picture(const Session& session, const SelectedRay& ray, Results& results, Progress& progress,

@@ -42,7 +42,7 @@ std::string text_from(const TextTable& table, int indent) {
         std::string line(static_cast<std::size_t>(indent), ' ');
         for (std::size_t column = 0; column < row.size(); ++column) {
             const std::string padding(widths[column] - characters(row[column]), ' ');
-            const bool right = column < table.align.size() && table.align[column] == Align::right;
+            const bool right = column < table.align.size() && table.align[column] == TableAlign::right;
             if (column > 0) line += "  ";
             line += right ? padding + row[column] : row[column] + padding;
         }
@@ -70,7 +70,7 @@ std::string markdown_from(const TextTable& table) {
     };
     std::string rule = "|";
     for (std::size_t column = 0; column < table.heading.size(); ++column)
-        rule += column < table.align.size() && table.align[column] == Align::right ? "---:|" : "---|";
+        rule += column < table.align.size() && table.align[column] == TableAlign::right ? "---:|" : "---|";
     std::string text = line(table.heading) + rule + "\n";
     for (const auto& row : table.rows) text += line(row);
     return text;

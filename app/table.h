@@ -7,12 +7,12 @@
 
 namespace sightlines {
 
-enum class Align { left, right };
+enum class TableAlign { left, right };
 
 /// Columns padded to their widest cell (counted in characters, not bytes), two spaces between them.
 struct TextTable {
     std::vector<std::string> heading;  ///< may be empty: no heading line
-    std::vector<Align> align;          ///< by column; left where it is shorter
+    std::vector<TableAlign> align;     ///< by column; left where it is shorter
     std::vector<std::vector<std::string>> rows;
 };
 

@@ -116,7 +116,7 @@ std::string text_from_trace(const Session& session, const SelectedRay& ray) {
                  {"to", point_text(segment.target) + " m"}};
     std::string text = text_from(head) + "\n";
     TextTable lines;
-    lines.align = {Align::right};
+    lines.align = {TableAlign::right};
     for (std::size_t i = 0; i < ray.trace.steps.size(); ++i) {
         const TraceStep& step = ray.trace.steps[i];
         lines.rows.push_back({std::to_string(i + 1), step.file + ":" + std::to_string(step.line), step.paper});

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "visualizers/theme.h"
+#include "visualizers/view_marks.h"
 
 namespace sightlines {
 namespace {
@@ -96,8 +97,7 @@ void draw_bit_strip(Canvas& canvas, const VoxelRowPicture& picture, const ViewSt
 
 namespace {
 
-/// What the verdict is made of, the longest form first.
-std::array<std::string, 3> verdict_sentences(const VoxelRowPicture& picture) {
+Verdict verdict_of(const VoxelRowPicture& picture) {
     int set = 0;
     for (int u = picture.first; u <= picture.last; ++u) set += is_set(picture, {u, picture.v, picture.w});
     const std::string count =
@@ -112,36 +112,16 @@ std::array<std::string, 3> verdict_sentences(const VoxelRowPicture& picture) {
         embree += why + ".";
     }
     const std::string short_embree = embree.empty() ? "" : embree.substr(0, embree.size() - 1 - why.size()) + ".";
-    return {count + " looked at " + (set == 1 ? "is" : "are") + " set." + embree, count + " set." + short_embree,
-            short_embree.empty() ? count + " set." : short_embree.substr(1)};
+    return {picture.blocked,
+            {count + " looked at " + (set == 1 ? "is" : "are") + " set." + embree, count + " set." + short_embree,
+             short_embree.empty() ? count + " set." : short_embree.substr(1)}};
 }
 
 }  // namespace
 
 float draw_verdict(Canvas& canvas, const VoxelRowPicture& picture, const ViewState& state, vec2 at, float width,
                    float text_height) {
-    const Palette colours = palette(state.theme);
-    const float em = text_height;
-    const std::string word = picture.blocked ? "BLOCKED" : "OPEN";
-    const TextStyle word_style{.height = em, .colour = picture.blocked ? colours.page : colours.ink, .bold = true};
-    const Rectangle pill{at - vec2(0.0f, 1.1f * em), {text_width(canvas, word, word_style) + 1.0f * em, 1.5f * em}};
-    if (picture.blocked)
-        fill_rectangle(canvas, pill, colours.set_bit);
-    else
-        draw_rectangle(canvas, pill, {.colour = colours.ink, .width = 0.1f * em});
-    draw_text(canvas, at + vec2(0.5f * em, 0.0f), word, word_style);
-
-    const TextStyle style{.height = em, .colour = colours.ink};
-    const vec2 start = at + vec2(pill.size.x + 0.8f * em, 0.0f);
-    const auto sentences = verdict_sentences(picture);
-    const auto end_of = [&](const std::string& sentence) {
-        return start.x - at.x + text_width(canvas, sentence, style);
-    };
-    const auto fitting =
-        std::ranges::find_if(sentences, [&](const std::string& sentence) { return end_of(sentence) <= width; });
-    if (fitting == sentences.end()) return pill.size.x;
-    draw_text(canvas, start, *fitting, style);
-    return end_of(*fitting);
+    return draw_verdict(canvas, verdict_of(picture), palette(state.theme), at, width, text_height);
 }
 
 void draw_angle_wedge(Canvas& canvas, const VoxelRowPicture& picture, const ViewState& state, const Rectangle& where,

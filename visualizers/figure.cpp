@@ -97,8 +97,8 @@ std::vector<std::uint8_t> voxel_row_figure(VoxelRowView& view, const VoxelRowPic
     return finished_file(canvas);
 }
 
-std::vector<std::uint8_t> dictionary_figure(InsideView& view, const DictionaryPicture& picture, const ViewState& state,
-                                            CanvasFormat format, const FigureOptions& options) {
+std::vector<std::uint8_t> dictionary_figure(VoxelRowView& view, const DictionaryPicture& picture,
+                                            const ViewState& state, CanvasFormat format, const FigureOptions& options) {
     check_options(options);
     const float width = std::round(options.width_mm * points_per_mm);
     const float panel = dictionary_panel_height({width, 10.0f * width}, text_height);
@@ -110,7 +110,7 @@ std::vector<std::uint8_t> dictionary_figure(InsideView& view, const DictionaryPi
     Canvas canvas = make_page_canvas(format, {width, std::ceil(height + panel)}, options.dpi);
     if (state.theme != Theme::print) fill_rectangle(canvas, {{0.0f, 0.0f}, canvas.size}, colours.page);
     draw_picture(canvas, {{0.0f, 0.0f}, {width, height}},
-                 render_solid(view.voxel_rows, picture.row, state, pixels, pixels.width > supersampled_width ? 1 : 2));
+                 render_solid(view, picture.row, state, pixels, pixels.width > supersampled_width ? 1 : 2));
     draw_lit(canvas, view_camera(shown_camera(picture.row, state, in_space), in_space), differing_voxels(picture),
              colours, text_height / 12.0f, Emphasis::step);
     draw_voxel_row_marks(canvas, picture.row, state, in_space, text_height / 12.0f, MarksKey::none);
@@ -119,22 +119,61 @@ std::vector<std::uint8_t> dictionary_figure(InsideView& view, const DictionaryPi
     return finished_file(canvas);
 }
 
+std::vector<std::uint8_t> ray_figure(RayView& view, const RayPicture& picture, const ViewState& state,
+                                     CanvasFormat format, const FigureOptions& options) {
+    check_options(options);
+    const float width = std::round(options.width_mm * points_per_mm);
+    const ImageSize in_space{static_cast<int>(width), static_cast<int>(std::round(0.54f * width))};
+    const float height = static_cast<float>(in_space.height);
+    const float panel = map_panel_height(picture, {width, width}, text_height);
+    const float scale = options.dpi / 72.0f;
+    const ImageSize pixels{static_cast<int>(std::round(width * scale)), static_cast<int>(std::round(height * scale))};
+    const Palette colours = palette(state.theme);
+    Canvas canvas = make_page_canvas(format, {width, std::ceil(height + panel)}, options.dpi);
+    if (state.theme != Theme::print) fill_rectangle(canvas, {{0.0f, 0.0f}, canvas.size}, colours.page);
+    draw_picture(canvas, {{0.0f, 0.0f}, {width, height}},
+                 render_solid(view, picture, state, pixels, pixels.width > supersampled_width ? 1 : 2));
+    draw_ray_marks(canvas, picture, state, in_space, text_height / 12.0f);
+    if (panel > 0.0f) {
+        draw_line(canvas, {0.0f, height}, {width, height}, {.colour = colours.hairline, .width = 0.5f});
+        draw_map_panel(canvas, picture, state, {{0.0f, height}, {width, panel}}, text_height);
+    }
+    return finished_file(canvas);
+}
+
+namespace {
+
+template <class View>
+View& made(std::optional<View>& view) {
+    return view ? *view : view.emplace();
+}
+
+std::vector<std::uint8_t> figure_file(InsideView& view, const InsidePicture& picture, const ViewState& state,
+                                      CanvasFormat format, const FigureOptions& options) {
+    if (const auto* ray = std::get_if<RayPicture>(&picture))
+        return ray_figure(made(view.rays), *ray, state, format, options);
+    if (const auto* dictionary = std::get_if<DictionaryPicture>(&picture))
+        return dictionary_figure(made(view.voxel_rows), *dictionary, state, format, options);
+    return voxel_row_figure(made(view.voxel_rows), std::get<VoxelRowPicture>(picture), state, format, options);
+}
+
+}  // namespace
+
 std::vector<std::filesystem::path> write_figure(InsideView& view, const InsidePicture& picture, std::string_view name,
                                                 const ViewState& state, const FigureOptions& options,
                                                 const std::filesystem::path& folder) {
-    const auto* dictionary = std::get_if<DictionaryPicture>(&picture);
-    if (options.format == FigureFormat::vtk && dictionary)
+    const auto* rows = std::get_if<VoxelRowPicture>(&picture);
+    if (options.format == FigureFormat::vtk && rows == nullptr)
         throw InputError("--format", "vtk", "is not a format of this figure",
                          "it can be png, svg or pdf; the figure voxel-row has VTK data");
-    if (options.format == FigureFormat::vtk) return write_voxel_row_vtk(rows_in_space(picture), folder);
+    if (options.format == FigureFormat::vtk) return write_voxel_row_vtk(*rows, folder);
     const CanvasFormat format = options.format == FigureFormat::svg   ? CanvasFormat::svg
                                 : options.format == FigureFormat::pdf ? CanvasFormat::pdf
                                                                       : CanvasFormat::png;
     const char* const extension = format == CanvasFormat::svg ? ".svg" : format == CanvasFormat::pdf ? ".pdf" : ".png";
     const std::filesystem::path file = folder / (std::string(name) + extension);
     check_writable(file);
-    write_file(file, dictionary ? dictionary_figure(view, *dictionary, state, format, options)
-                                : voxel_row_figure(view.voxel_rows, rows_in_space(picture), state, format, options));
+    write_file(file, figure_file(view, picture, state, format, options));
     return {file};
 }
 

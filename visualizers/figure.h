@@ -28,8 +28,12 @@ std::vector<std::uint8_t> voxel_row_figure(VoxelRowView& view, const VoxelRowPic
                                            CanvasFormat format, const FigureOptions& options);
 
 /// The voxels before compression, with the row's differing bits in frames, and the panel of the dictionary below.
-std::vector<std::uint8_t> dictionary_figure(InsideView& view, const DictionaryPicture& picture, const ViewState& state,
-                                            CanvasFormat format, const FigureOptions& options);
+std::vector<std::uint8_t> dictionary_figure(VoxelRowView& view, const DictionaryPicture& picture,
+                                            const ViewState& state, CanvasFormat format, const FigureOptions& options);
+
+/// The ray in the scene, and below it the maps that it was looked up in.
+std::vector<std::uint8_t> ray_figure(RayView& view, const RayPicture& picture, const ViewState& state,
+                                     CanvasFormat format, const FigureOptions& options);
 
 /// Writes the figure as `folder`/`name`.EXTENSION, or for VTK the pieces and voxel-row.vtm that names them, each whole
 /// or not at all. Gives the files written, the one to open first. EnvironmentError where that is not possible,

@@ -10,15 +10,16 @@
 
 #include "shaders/trace.h"
 #include "visualizers/dictionary_picture.h"
+#include "visualizers/ray_view.h"
 #include "visualizers/voxel_row_view.h"
 
 namespace sightlines {
 
 /// What a view inside shows; the alternatives are the explicit list of views.
-using InsidePicture = std::variant<VoxelRowPicture, DictionaryPicture>;
+using InsidePicture = std::variant<VoxelRowPicture, DictionaryPicture, RayPicture>;
 
-/// The part of the picture that lies in space.
-const VoxelRowPicture& rows_in_space(const InsidePicture& picture);
+/// The voxels of a picture of voxel rows; null for others.
+const VoxelRowPicture* rows_in_space(const InsidePicture& picture);
 
 /// The solid part of a view as it was drawn last, and what it was drawn from.
 struct SolidDrawn {
@@ -32,7 +33,8 @@ struct SolidDrawn {
 /// Draws any of them. As VoxelRowView: one thread at a time, no state that a picture depends on. Where only the marks
 /// differ from the last picture (the step, what is pointed at), only they are drawn again.
 struct InsideView {
-    VoxelRowView voxel_rows;
+    std::optional<VoxelRowView> voxel_rows;  ///< made when first drawn with
+    std::optional<RayView> rays;
     SolidDrawn latest;
 };
 

@@ -28,17 +28,6 @@ void draw_point(const Pen& pen, vec3 point) {
     draw_circle(pen.canvas, vec2(*at), pen.ring_radius, pen.line);
 }
 
-/// Calls `edge(from, to)` for the twelve edges of a box given as origin and three edge vectors.
-template <class Edge>
-void for_each_edge(const std::vector<vec3>& box, const Edge& edge) {
-    for (int axis = 0; axis < 3; ++axis)
-        for (int corner = 0; corner < 4; ++corner) {
-            const vec3 from = box[0] + ((corner & 1) != 0 ? box[1 + (axis + 1) % 3] : vec3(0.0f)) +
-                              ((corner & 2) != 0 ? box[1 + (axis + 2) % 3] : vec3(0.0f));
-            edge(from, from + box[1 + axis]);
-        }
-}
-
 bool is_whole(const TraceGeometry& geometry) {
     const std::size_t needed = geometry.shape == TraceShape::point ? 1 : geometry.shape == TraceShape::segment ? 2 : 4;
     return geometry.points.size() >= needed;

@@ -111,6 +111,17 @@ ColouredTriangles voxel_triangles(const VoxelRowPicture& picture, const VoxelBox
     return out;
 }
 
+ColouredTriangles box_triangles(std::span<const ColouredBox> boxes) {
+    constexpr float inset = 0.03f;  // of a side
+    VoxelRowPicture world;          // a voxel is a metre
+    ColouredTriangles out;
+    for (const ColouredBox& each : boxes) {
+        const vec3 margin = inset * each.box.size();
+        add_box(out, world, each.box.lowest + margin, each.box.highest - margin, each.colour);
+    }
+    return out;
+}
+
 CellBox row_cell(const VoxelRowPicture& picture, int u, bool mark_extent) {
     const vec3 low(static_cast<float>(u), static_cast<float>(picture.v), static_cast<float>(picture.w));
     const float inset = is_kept(picture, u, mark_extent) ? 0.02f : 0.22f;

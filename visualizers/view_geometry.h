@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "visualizers/theme.h"
@@ -22,6 +23,15 @@ ColouredTriangles ghost_triangles(const Scene& scene, const CutPlane& cut, const
 
 /// The faces of the voxels in the box.
 ColouredTriangles voxel_triangles(const VoxelRowPicture& picture, const VoxelBox& box, const Palette& colours);
+
+/// A box along the world's axes.
+struct ColouredBox {
+    Box3 box;  ///< m
+    vec3 colour{0.0f};
+};
+
+/// Their faces, lit; a hair smaller than the boxes, so that neighbours can be told apart.
+ColouredTriangles box_triangles(std::span<const ColouredBox> boxes);
 
 /// A box in voxel coordinates.
 struct CellBox {

@@ -24,9 +24,9 @@ void add_figure_flags(CLI::App& command, FigureFlags& flags) {
 
 CommandOutput figure_to_files(const Session& session, const FigureFlags& flags, Results& results,
                               const CommonFlags& common, Progress& progress) {
-    const std::string name = flags.name == "all" ? std::string(figures().front().name) : flags.name;
+    const std::string name = flags.name == "all" ? std::string(shown_figure(session)) : flags.name;
     const FigureRow& figure = find_figure(name);
-    if (session.technique != figure.technique)
+    if (!figure.technique.empty() && session.technique != figure.technique)
         throw InputError("figure " + name, "", "shows the inside of " + std::string(figure.technique),
                          "give --technique " + std::string(figure.technique));
     if (!can_show(figure, session))

@@ -62,8 +62,9 @@ Listing list_figures() {
     Listing listing;
     listing.table.heading = {"name", "technique", "about"};
     for (const FigureRow& figure : figures()) {
-        listing.table.rows.push_back(
-            {std::string(figure.name), std::string(figure.technique), std::string(figure.about)});
+        listing.table.rows.push_back({std::string(figure.name),
+                                      figure.technique.empty() ? "any" : std::string(figure.technique),
+                                      std::string(figure.about)});
         listing.json.push_back({{"name", figure.name}, {"technique", figure.technique}, {"about", figure.about}});
     }
     return listing;
@@ -98,7 +99,7 @@ std::string range_text(const Parameter& row) {
 Listing list_parameters(const std::string& technique_name) {
     Listing listing;
     listing.table.heading = {"name", "default", "range", "unit", "paper", "help"};
-    listing.table.align = {Align::left, Align::right, Align::left, Align::left, Align::right};
+    listing.table.align = {TableAlign::left, TableAlign::right, TableAlign::left, TableAlign::left, TableAlign::right};
     for (const Technique& technique : techniques()) {
         if (!technique_name.empty() && technique.name != technique_name) continue;
         listing.table.rows.push_back({std::string(technique.name) + ":"});
@@ -122,7 +123,7 @@ Listing list_devices() {
     Listing listing;
     listing.empty = "There is no Vulkan driver; the CPU backend needs none.";
     listing.table.heading = {"device", "kind", "driver", "Vulkan", "memory", "usable"};
-    listing.table.align = {Align::left, Align::left, Align::left, Align::left, Align::right};
+    listing.table.align = {TableAlign::left, TableAlign::left, TableAlign::left, TableAlign::left, TableAlign::right};
     for (const compute::DeviceInfo& device : compute::list_devices()) {
         listing.table.rows.push_back({device.name, std::string(compute::title(device.kind)), device.driver,
                                       device.vulkan_version, bytes_text(device.memory_bytes),

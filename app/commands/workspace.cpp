@@ -46,7 +46,8 @@ CommandOutput run_workspace(const WorkspaceFlags& flags, Progress& progress) {
 }  // namespace
 
 void add_workspace_command(CLI::App& app, Command& chosen) {
-    CLI::App& command = *app.add_subcommand("workspace", "Open a saved session in the window, render it, or make a figure of it");
+    CLI::App& command =
+        *app.add_subcommand("workspace", "Open a saved session in the window, render it, or make a figure of it");
     const auto flags = std::make_shared<WorkspaceFlags>();
     command
         .add_option("files", flags->files, "A session as JSON; further files change it, each a merge patch (RFC 7386)")

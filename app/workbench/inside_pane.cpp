@@ -70,11 +70,21 @@ void draw_figure_choice(Frame& frame) {
     ImGui::Separator();
 }
 
-void draw_options(Frame& frame) {
-    const bool has_choice =
-        std::ranges::count_if(figures(), [&](const FigureRow& figure) { return can_show(figure, frame.next); }) > 1;
-    if (has_choice) draw_figure_choice(frame);
-    ViewState state = inside_state(frame.next);
+void toggle_cut(Frame& frame, ViewState& state, const char* text) {
+    bool cut = state.cut_away == CutAway::to_row;
+    if (toggle(frame, text, cut)) state.cut_away = cut ? CutAway::to_row : CutAway::none;
+}
+
+void draw_ray_options(Frame& frame, ViewState& state) {
+    toggle(frame, "Scene, ghosted", state.scene);
+    toggle(frame, "Cells", state.voxels);
+    toggle(frame, "Cells that the ray touched", state.row);
+    toggle(frame, "Ray", state.ray);
+    toggle(frame, "Labels", state.labels);
+    toggle_cut(frame, state, "Cells behind the ray only");
+}
+
+void draw_row_options(Frame& frame, ViewState& state) {
     toggle(frame, "Scene, ghosted", state.scene);
     toggle(frame, "Voxels", state.voxels);
     toggle(frame, "Row", state.row);
@@ -82,14 +92,14 @@ void draw_options(Frame& frame) {
     toggle(frame, "Ray", state.ray);
     toggle(frame, "Its discretised twin", state.twin);
     toggle(frame, "Labels and legend", state.labels);
-    bool cut = state.cut_away == CutAway::to_row;
-    if (toggle(frame, "Cut open along the row", cut)) state.cut_away = cut ? CutAway::to_row : CutAway::none;
+    toggle_cut(frame, state, "Cut open along the row");
     const float width = 200.0f * frame.scale;
     ImGui::SetNextItemWidth(width);
     ImGui::SliderInt("##slab", &state.slab_voxels, 1, 128, "%d layers behind the row", ImGuiSliderFlags_AlwaysClamp);
     if (ImGui::IsItemActive()) frame.in_gesture = true;
     int resolution = 128;
-    if (frame.shown.inside) resolution = rows_in_space(*frame.shown.inside).resolution;
+    if (const auto* rows = frame.shown.inside ? rows_in_space(*frame.shown.inside) : nullptr)
+        resolution = rows->resolution;
     int first = state.slice_first, last = std::min(state.slice_last, resolution - 1);
     ImGui::SetNextItemWidth(width);
     if (ImGui::DragIntRange2("##slice", &first, &last, 0.5f, 0, resolution - 1, "from voxel %d", "to %d",
@@ -97,8 +107,19 @@ void draw_options(Frame& frame) {
         state.slice_first = first;
         state.slice_last = last;
     }
-    if (ImGui::IsAnyItemActive()) frame.in_gesture = true;
     tooltip(frame, "Slice along the row: only these voxels are drawn");
+}
+
+void draw_options(Frame& frame) {
+    const bool has_choice =
+        std::ranges::count_if(figures(), [&](const FigureRow& figure) { return can_show(figure, frame.next); }) > 1;
+    if (has_choice) draw_figure_choice(frame);
+    ViewState state = inside_state(frame.next);
+    if (shown_figure(frame.next) == "ray")
+        draw_ray_options(frame, state);
+    else
+        draw_row_options(frame, state);
+    if (ImGui::IsAnyItemActive()) frame.in_gesture = true;
     set_inside_state(frame.next, state);
 }
 

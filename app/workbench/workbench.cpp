@@ -184,8 +184,9 @@ void ask_for_inside(Bench& bench, const Frame& frame, const Arrangement& areas) 
         request.lit.step = steps[step].geometry;
     }
     request.lit.pointed = frame.ui.pointed;
-    if (now.selection.voxel && ray_is_current(frame))
-        request.lit.pointed.push_back(voxel_box(rows_in_space(*frame.shown.inside), *now.selection.voxel));
+    const VoxelRowPicture* const rows = rows_in_space(*frame.shown.inside);
+    if (rows != nullptr && now.selection.voxel && ray_is_current(frame))
+        request.lit.pointed.push_back(voxel_box(*rows, *now.selection.voxel));
     draw(bench.inside, request);
 }
 

@@ -2,6 +2,10 @@
 // a benchmark asks beyond that.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "techniques/rays/reference.h"
 #include "techniques/technique.h"
 
@@ -19,5 +23,21 @@ QueryCount count_by_row_marching(const Structure& structure, const RenderRequest
 QueryCount count_by_shadow_maps(const Structure& structure, const RenderRequest& request);
 QueryCount count_by_imperfect_shadow_maps(const Structure& structure, const RenderRequest& request);
 QueryCount count_by_ray_tracing(const Structure& structure, const RenderRequest& request);
+
+/// A map that a light's ray was looked up in, for the view inside.
+struct LookedUpMap {
+    std::string title;            ///< "+X", "front"
+    int side = 0;                 ///< texels
+    std::vector<float> nearness;  ///< [side][side], as ShadowMapShape says; 0: nothing there
+    std::optional<ivec2> asked;   ///< column and row of the ray's texel, where it is in this map
+};
+
+/// All maps of the request's light: six faces, two paraboloids, or one. Imperfect ones as they are drawn first, without
+/// their holes filled, and then as they are looked up. For structures of shadow_maps and imperfect_shadow_maps.
+std::vector<LookedUpMap> looked_up_maps(const Structure& structure, const TraceRequest& request);
+std::vector<LookedUpMap> looked_up_imperfect_maps(const Structure& structure, const TraceRequest& request);
+
+/// The occupied voxels of a marching technique's structure, as boxes, m.
+std::vector<Box3> occupied_boxes(const Structure& structure);
 
 }  // namespace sightlines::baselines

@@ -6,7 +6,7 @@ namespace sightlines {
 namespace {
 
 TEST(Table, AlignsColumnsByCharactersNotBytes) {
-    const TextTable table{{"name", "n"}, {Align::left, Align::right}, {{"ε", "1"}, {"abcdef", "23"}}};
+    const TextTable table{{"name", "n"}, {TableAlign::left, TableAlign::right}, {{"ε", "1"}, {"abcdef", "23"}}};
     EXPECT_EQ(text_from(table), "name     n\nε        1\nabcdef  23\n");
     EXPECT_EQ(text_from({{}, {}, {{"a", ""}}}, 2), "  a\n");
 }
@@ -16,7 +16,7 @@ TEST(Table, QuotesCsvCellsThatNeedIt) {
 }
 
 TEST(Table, MarksRightAlignedColumnsInMarkdown) {
-    EXPECT_EQ(markdown_from({{"a", "b"}, {Align::left, Align::right}, {{"1", "2"}}}),
+    EXPECT_EQ(markdown_from({{"a", "b"}, {TableAlign::left, TableAlign::right}, {{"1", "2"}}}),
               "| a | b |\n|---|---:|\n| 1 | 2 |\n");
 }
 

@@ -136,13 +136,19 @@ RenderResult render(const Structure& structure, const RenderRequest& request, Pr
     return result;
 }
 
-Trace trace(const Structure& structure, const TraceRequest& request) {
-    const SampledScene& scene = sampled(structure);
+/// The maps of one light.
+LightMaps maps_of_light(const SampledScene& scene, const TraceRequest& request, const SplatOptions& splats) {
     const MapOptions options = map_options(scene, request.parameters);
     LightMaps maps(1, paraboloids, options.resolution);
     const Progress progress;
-    const Maker make{scene, options, splat_options(request.parameters), 1, 1, maps, progress};
+    const Maker make{scene, options, splats, 1, 1, maps, progress};
     make.draw(light_record(request.light), 0);
+    return maps;
+}
+
+Trace trace(const Structure& structure, const TraceRequest& request) {
+    const SampledScene& scene = sampled(structure);
+    const LightMaps maps = maps_of_light(scene, request, splat_options(request.parameters));
     return trace_map(maps.shapes[0], maps.maps(0), MapKind::imperfect, request, scene.reach_m);
 }
 
@@ -179,6 +185,22 @@ const Technique& imperfect_shadow_maps() {
         statistics,
         false};
     return row;
+}
+
+std::vector<LookedUpMap> looked_up_imperfect_maps(const Structure& structure, const TraceRequest& request) {
+    constexpr std::array<std::string_view, paraboloids> splatted{"points, front", "points, back"},
+        filled{"filled, front", "filled, back"};
+    const SampledScene& scene = sampled(structure);
+    const Trace traced = trace(structure, request);
+    SplatOptions splats = splat_options(request.parameters);
+    const LightMaps whole = maps_of_light(scene, request, splats);
+    splats.fill_levels = 0;
+    const LightMaps raw = maps_of_light(scene, request, splats);
+    const auto used = static_cast<std::size_t>(imperfect_maps_of(whole.shapes[0]));
+    std::vector<LookedUpMap> maps = maps_of_trace(raw.shapes[0], raw.maps(0), std::span(splatted).first(used), traced);
+    std::ranges::move(maps_of_trace(whole.shapes[0], whole.maps(0), std::span(filled).first(used), traced),
+                      std::back_inserter(maps));
+    return maps;
 }
 
 QueryCount count_by_imperfect_shadow_maps(const Structure& structure, const RenderRequest& request) {

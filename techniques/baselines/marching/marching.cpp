@@ -99,6 +99,20 @@ const Technique& row_marching() {
     return row;
 }
 
+std::vector<Box3> occupied_boxes(const Structure& structure) {
+    const Voxelization& voxels = voxelization(structure);
+    const vec3 size = 1.0f / voxels.grid.voxels_per_metre;
+    std::vector<Box3> boxes;
+    for (int z = 0; z < voxels.cells.z; ++z)
+        for (int y = 0; y < voxels.cells.y; ++y)
+            for (int x = 0; x < voxels.cells.x; ++x) {
+                if (!voxels.at({x, y, z})) continue;
+                const vec3 corner = voxels.grid.lowest + vec3(x, y, z) * size;
+                boxes.push_back({corner, corner + size});
+            }
+    return boxes;
+}
+
 QueryCount count_by_voxel_marching(const Structure& structure, const RenderRequest& request) {
     refuse_vulkan(request.backend, name_of(March::voxels));
     return count_by_marching(voxelization(structure), March::voxels, request);

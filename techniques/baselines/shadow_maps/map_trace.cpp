@@ -45,4 +45,22 @@ Trace trace_map(const ShadowMapShape& shape, const float* maps, MapKind kind, co
     return trace;
 }
 
+std::vector<LookedUpMap> maps_of_trace(const ShadowMapShape& shape, const float* maps,
+                                       std::span<const std::string_view> titles, const Trace& traced) {
+    std::vector<LookedUpMap> looked_up;
+    for (const std::string_view title : titles) {
+        LookedUpMap& map = looked_up.emplace_back(LookedUpMap{std::string(title), shape.resolution, {}, {}});
+        const float* numbers = maps + static_cast<std::ptrdiff_t>(looked_up.size() - 1) * shape.map_pitch;
+        for (int row = 0; row < shape.resolution; ++row)
+            map.nearness.insert(map.nearness.end(), numbers + static_cast<std::ptrdiff_t>(row) * shape.pitch,
+                                numbers + static_cast<std::ptrdiff_t>(row) * shape.pitch + shape.resolution);
+    }
+    for (const TraceStep& step : traced.steps) {
+        const auto map = whole_value(step, "place.map"), column = whole_value(step, "column"),
+                   line = whole_value(step, "line");
+        if (map && column && line) looked_up.at(static_cast<std::size_t>(*map)).asked = ivec2(*column, *line);
+    }
+    return looked_up;
+}
+
 }  // namespace sightlines::baselines

@@ -152,16 +152,21 @@ RenderResult render(const Structure& structure, const RenderRequest& request, Pr
     return result;
 }
 
-Trace trace(const Structure& structure, const TraceRequest& request) {
-    const CasterTriangles& triangles = casters(structure);
+/// All maps of one light, whole.
+LightMaps whole_maps(const CasterTriangles& triangles, const TraceRequest& request) {
     const MapOptions options = map_options(request.parameters);
     LightMaps maps(1, cube_faces, options.resolution);
-    const LightRecord record = light_record(request.light);
     const Progress progress;
-    maps.shapes[0] = map_shape(record, triangles.bounds, options);
+    maps.shapes[0] = map_shape(light_record(request.light), triangles.bounds, options);
     const Maker make{triangles, options, 1, maps, progress};
     const int last = options.resolution - 1;
     for (int face = 0; face < maps_of(maps.shapes[0]); ++face) make.draw(0, face, {0, 0, last, last});
+    return maps;
+}
+
+Trace trace(const Structure& structure, const TraceRequest& request) {
+    const CasterTriangles& triangles = casters(structure);
+    const LightMaps maps = whole_maps(triangles, request);
     return trace_map(maps.shapes[0], maps.maps(0), MapKind::conventional, request, triangles.reach_m);
 }
 
@@ -195,6 +200,18 @@ const Technique& shadow_maps() {
                                statistics,
                                false};
     return row;
+}
+
+std::vector<LookedUpMap> looked_up_maps(const Structure& structure, const TraceRequest& request) {
+    constexpr std::array<std::string_view, cube_faces> faces{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+    constexpr std::array<std::string_view, 1> directional{"from the light"};
+    const CasterTriangles& triangles = casters(structure);
+    const LightMaps maps = whole_maps(triangles, request);
+    const ShadowMapShape& shape = maps.shapes[0];
+    std::span<const std::string_view> titles = faces;
+    if (shape.directional != 0) titles = directional;
+    return maps_of_trace(shape, maps.maps(0), titles,
+                         trace_map(shape, maps.maps(0), MapKind::conventional, request, triangles.reach_m));
 }
 
 QueryCount count_by_shadow_maps(const Structure& structure, const RenderRequest& request) {
