@@ -320,7 +320,8 @@ void draw_image(Frame& frame, const Area& body) {
         draw_plate(frame, where.area.corner + edge, {0.0f, 0.0f}, state);
     if (!frame.session.selection.pixel)
         draw_plate(frame, where.area.corner + vec2(0.5f * where.area.size.x, where.area.size.y - edge), {0.5f, 1.0f},
-                   "Click a point to follow its light rays");
+                   lit_by_environment(frame.session) ? "Click a point to follow its samples"
+                                                     : "Click a point to follow its light rays");
     handle_mouse(frame, body, where, light);
 }
 

@@ -153,7 +153,9 @@ void draw_table(Frame& frame, const PixelRays& rays, bool narrow) {
                            ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_PadOuterX))
         return;
     for (const ColumnRow& column : columns)
-        ImGui::TableSetupColumn(column.title, ImGuiTableColumnFlags_WidthStretch, column.weight);
+        ImGui::TableSetupColumn(
+            column.title, ImGuiTableColumnFlags_WidthStretch,
+            column.weight * (lit_by_environment(frame.session) && &column == columns.begin() ? 1.4f : 1.0f));
     ImGui::TableSetupScrollFreeze(0, 1);
     draw_heading(frame);
     const Workbench& look = frame.session.workbench;

@@ -185,7 +185,7 @@ TEST(EnvironmentProgram, TakesAFileAndIsBrighterWhereThatIs) {
     };
     const double grey = mean("grey.hdr");
     EXPECT_GT(mean("bright.hdr"), grey + 5.0);
-    EXPECT_EQ(report_in(folder)["environment"]["name"], "bright");
+    EXPECT_EQ(report_in(folder)["environment"]["name"], "bright.hdr");
 }
 
 TEST(EnvironmentProgram, RefusesWhatIsNoEnvironmentInOneLine) {

@@ -18,13 +18,16 @@ struct Asked {
     EnvironmentLight light = make_environment_light(procedural_sky({}));
     ParameterValues parameters{{"points", 6000.0}, {"rays_per_point", 64.0}, {"samples", 48.0}};
     Structure structure;
+    std::any samples;
     RenderRequest request;
     Progress progress;
 
     explicit Asked(const ParameterValues& more = {}) {
         for (const auto& [name, value] : more) parameters[name] = value;
         structure = technique().build({.scene = &scene, .parameters = parameters, .threads = 2}, progress);
+        samples = technique().environment->samples(parameters, 1);
         request.surfaces = &surfaces;
+        request.samples = &samples;
         request.environment = &light;
         request.parameters = parameters;
         request.keep_verdicts = true;
@@ -48,6 +51,7 @@ TEST(FieldTechnique, PaintsWhatTheLibraryPaints) {
     const auto embree = build_embree_scene(asked.scene, EmbreeUse::benchmark, 2, asked.progress);
     const VisibilityField field = bake(asked.scene, *embree, options, asked.progress);
     const EnvironmentResult expected = render_environment(&field, *embree, request, asked.progress);
+    asked.request.samples = nullptr;  // made by itself
     const RenderResult ours = asked.picture();
     for (std::size_t p = 0; p < size.pixels(); ++p) {
         if (!asked.shows_surface(p)) continue;
