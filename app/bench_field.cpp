@@ -23,15 +23,13 @@ std::string label_of(const std::string& name) {
     return stem;
 }
 
-Environment environment_of(const BenchRun& run) {
-    return run.base.environment.empty() ? procedural_sky({}) : read_environment(run.base.environment);
-}
+Environment environment_of(const BenchRun& run) { return make_surroundings(run.base.environment); }
 
 /// What is not varied by the table itself.
 std::string setup_text(const BenchRun& run, const PaperTable& table, const BakeOptions& bake) {
-    const std::string light = run.base.environment.empty()
+    const std::string light = run.base.environment.file.empty()
                                   ? std::string("built-in sky")
-                                  : std::filesystem::path(run.base.environment).filename().string();
+                                  : std::filesystem::path(run.base.environment.file).filename().string();
     const bool by_samples = table.varied == "samples a pixel", draws = table.varied != "cm" || table.number > 0;
     std::string text;
     if (draws) text += std::to_string(run.base.size.width) + " x " + std::to_string(run.base.size.height) + " pixels";
@@ -82,7 +80,7 @@ std::shared_ptr<const FieldScene> field_scene(FieldMeasuring& m, const std::stri
     made->surfaces = m.results.surfaces(session, m.progress);
     const Environment environment = environment_of(m.run);
     m.table.notes.insert(m.table.notes.end(), environment.notes.begin(), environment.notes.end());
-    made->light = project(environment);
+    made->light = rotated(project(environment), turn_about_up(turn_deg(m.run.base)));
     made->embree = build_embree_scene(made->scene->value, EmbreeUse::benchmark, m.results.threads(), m.progress);
     return kept = std::move(made);
 }

@@ -69,9 +69,10 @@ Prepared with_values(Prepared prepared, const ParameterValues& values) {
 }
 
 double render_seconds(const Prepared& prepared, Results& results, Progress& progress, std::string& device) {
-    const RenderRequest request = results.request(prepared.session, prepared.surfaces->value, prepared.lights->value);
+    const PictureRequest asked =
+        results.request(prepared.session, prepared.surfaces->value, prepared.lights->value, progress);
     const BuiltStructure& built = prepared.structure->value;
-    const RenderResult picture = built.technique->render(built.structure, request, progress);
+    const RenderResult picture = built.technique->render(built.structure, asked.request, progress);
     device = picture.device;
     return picture.seconds;
 }

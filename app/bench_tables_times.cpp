@@ -123,8 +123,9 @@ MeasuredRow time_per_light(const MeasuredRow& row, const MeasuredRow& base) {
 
 QueryCount counted(const Prepared& prepared, Measuring& m,
                    QueryCount (*count)(const Structure&, const RenderRequest&)) {
-    const RenderRequest request = m.results.request(prepared.session, prepared.surfaces->value, prepared.lights->value);
-    return count(prepared.structure->value.structure, request);
+    const PictureRequest asked =
+        m.results.request(prepared.session, prepared.surfaces->value, prepared.lights->value, m.progress);
+    return count(prepared.structure->value.structure, asked.request);
 }
 
 }  // namespace

@@ -66,6 +66,17 @@ ImageRgba8 part_shown(const Image<Pixel>& image, PixelRect rect, const Show& sho
     return whole ? show(image) : show(cropped(image, rect));
 }
 
+/// Rays by Embree; those of a technique that counts none are all or nothing.
+ImageRgba8 traced_shown(const RenderResult& picture, PixelRect rect, std::size_t most) {
+    ImageScalar counts(ImageSize{rect.width, rect.height});
+    const bool all = picture.rays_traced > 0 && picture.rays_traced == picture.rays;
+    if (!picture.traced.pixels.empty() || all) {
+        const auto traced = cropped(picture.traced.pixels.empty() ? picture.rays_asked : picture.traced, rect);
+        std::ranges::copy(traced.pixels, counts.pixels.begin());
+    }
+    return colour_mapped(counts, 0.0f, static_cast<float>(most));
+}
+
 ImageRgba8 counts_shown(const RenderResult& picture, PixelRect rect, std::size_t lights, bool seen_only) {
     const auto asked = cropped(picture.rays_asked, rect);
     const ImageScalar shadow = cropped(picture.shadow, rect);
@@ -86,6 +97,7 @@ RenderReport render_session(const Session& session, Results& results, Progress& 
     report.load_seconds = model->seconds + report.scene->seconds;
     session_camera(session, report.scene->value);  // a wrong camera is refused before the long work
     report.lights = results.lights(session, progress);
+    if (lit_by_environment(session)) report.environment = results.environment(session, progress);
     report.picture = results.picture(session, progress);
     report.structure = results.structure(session, progress);
     if (needs_reference(session)) {
@@ -109,6 +121,11 @@ Json json_from_report(const RenderReport& report) {
                  {"device", picture.device},
                  {"seed", report.session.seed},
                  {"parameters", all_parameters(report.session)}};
+    if (report.environment) {
+        json["samples"] = rays_per_pixel(report.session, report.lights->value);
+        json["environment"] = {{"name", report.environment->value.map->name},
+                               {"turn_deg", report.environment->value.turn_deg}};
+    }
     json["seconds"] = {{"load", report.load_seconds}, {"build", statistics.build_seconds}, {"render", picture.seconds}};
     if (statistics.compress_seconds > 0.0) json["seconds"]["compress"] = statistics.compress_seconds;
     json["rays"] = {{"asked", picture.rays}, {"traced", picture.rays_traced}};
@@ -139,7 +156,8 @@ std::string text_from_report(const RenderReport& report) {
     line("scene", session.scene + ", " + count_text(report.scene->value.triangles.size()) + " triangles, loaded in " +
                       seconds_text(report.load_seconds));
     line("picture", std::to_string(session.size.width) + " x " + std::to_string(session.size.height) + " pixels, " +
-                        count_text(report.lights->value.size()) + " lights");
+                        count_text(rays_per_pixel(session, report.lights->value)) +
+                        (report.environment ? " samples of " + report.environment->value.map->name : " lights"));
     line("device", picture.device);
     line("structure", bytes_text(statistics.structure_bytes) + ", built in " + seconds_text(statistics.build_seconds));
     if (statistics.compress_seconds > 0.0)
@@ -148,6 +166,12 @@ std::string text_from_report(const RenderReport& report) {
     line("shadow rays", count_text(picture.rays) + " in " + seconds_text(picture.seconds) + " (" +
                             rate_text(rays_per_second(picture)) + "), " + percent_text(blocked_percent(picture)) +
                             " blocked");
+    if (report.environment)
+        line("traced", count_text(picture.rays_traced) + " of these (" +
+                           percent_text(picture.rays > 0 ? 100.0 * static_cast<double>(picture.rays_traced) /
+                                                               static_cast<double>(picture.rays)
+                                                         : 0.0) +
+                           "); the rest is known from the structure");
     if (report.errors) {
         const ErrorMetrics& errors = report.errors->value;
         const RenderResult& truth = report.reference->value;
@@ -192,6 +216,8 @@ ImageRgba8 shown_channel(Channel channel, const Display& display, const ChannelS
                 return counts_shown(*from.picture, rect, from.lights, false);
             case Channel::lights_seen:
                 return counts_shown(*from.picture, rect, from.lights, true);
+            case Channel::rays_traced:
+                return traced_shown(*from.picture, rect, from.lights);
         }
     return part_shown(from.picture->radiance, rect, lit);
 }
@@ -199,7 +225,8 @@ ImageRgba8 shown_channel(Channel channel, const Display& display, const ChannelS
 ImageRgba8 shown_channel(const RenderReport& report) {
     const RenderResult& picture = report.picture->value;
     const ChannelSource from{&picture, report.reference ? &report.reference->value : nullptr,
-                             report.errors ? &report.errors->value : nullptr, report.lights->value.size(),
+                             report.errors ? &report.errors->value : nullptr,
+                             rays_per_pixel(report.session, report.lights->value),
                              report.compression ? &report.compression->value : nullptr};
     const ImageSize size = picture.radiance.size;
     return shown_channel(report.session.channel, report.session.display, from, {0, 0, size.width, size.height});

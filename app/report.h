@@ -19,6 +19,7 @@ struct RenderReport {
     Backend backend = Backend::cpu;
     Shared<Scene> scene;
     Shared<std::vector<Light>> lights;
+    Shared<EnvironmentLight> environment;  ///< null where the technique is lit by lights
     Shared<BuiltStructure> structure;
     Shared<RenderResult> picture;
     Shared<RenderResult> reference;    ///< null without
@@ -41,7 +42,7 @@ struct ChannelSource {
     const RenderResult* picture = nullptr;
     const RenderResult* reference = nullptr;
     const ErrorMetrics* errors = nullptr;
-    std::size_t lights = 0;                     ///< that the scene has
+    std::size_t lights = 0;                     ///< that a pixel may ask at most (rays_per_pixel)
     const ErrorMetrics* compression = nullptr;  ///< Results::compression
 };
 

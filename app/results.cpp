@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -17,27 +18,28 @@ namespace {
 /// The reference keeps one bit for each pixel and light, twice (the technique's and Embree's).
 constexpr std::uint64_t verdict_limit_bytes = std::uint64_t{2} << 30u;
 
-/// The technique's parameters that change `affects`, out of those that are set.
-std::map<std::string, ParameterValues> own_parameters(const Session& session, bool structure_only) {
+/// The technique's parameters out of those that are set; of one kind only, or all.
+std::map<std::string, ParameterValues> own_parameters(const Session& session, std::optional<ParameterAffects> kind) {
     ParameterValues kept;
     for (const Parameter& row : find_technique(session.technique).parameters) {
         const ParameterValues values = technique_parameters(session);
         const auto given = values.find(std::string(row.name));
-        if (given == values.end() || (structure_only && row.affects != ParameterAffects::structure)) continue;
+        if (given == values.end() || (kind && row.affects != *kind)) continue;
         kept.insert(*given);
     }
     if (kept.empty()) return {};
     return {{session.technique, std::move(kept)}};
 }
 
-void check_verdicts(const Session& session, std::size_t light_count) {
+void check_verdicts(const Session& session, const std::vector<Light>& lights) {
+    const std::size_t light_count = rays_per_pixel(session, lights);
     const std::uint64_t words = (light_count + 31u) / 32u;
     const std::uint64_t bytes = 2u * 4u * words * session.size.pixels();
     if (bytes > verdict_limit_bytes)
         throw InputError("reference", "",
                          std::to_string(session.size.pixels()) + " pixels times " + std::to_string(light_count) +
-                             " lights are too many rays to compare",
-                         "a smaller picture or fewer lights; their answers may take " +
+                             (lit_by_environment(session) ? " samples" : " lights") + " are too many rays to compare",
+                         "a smaller picture or fewer of these; their answers may take " +
                              std::to_string(verdict_limit_bytes >> 20u) + " MiB");
 }
 
@@ -85,6 +87,31 @@ Backend automatic_backend() {
     return std::ranges::any_of(compute::list_devices(), is_gpu) ? Backend::vulkan : Backend::cpu;
 }
 
+Environment make_surroundings(const EnvironmentChoice& choice) {
+    if (!choice.file.empty()) return read_environment(choice.file);
+    SkyOptions sky;
+    sky.sun_elevation_deg = choice.sun_elevation_deg;
+    sky.sun_azimuth_deg = choice.sun_azimuth_deg;
+    return procedural_sky(sky);
+}
+
+float turn_deg(const Session& session) {
+    const EnvironmentChoice& choice = session.environment;
+    const double turn = double{choice.turn_deg} + double{choice.turn_deg_per_s} * session.time_s;
+    return static_cast<float>(std::fmod(turn, 360.0));
+}
+
+std::size_t rays_per_pixel(const Session& session, const std::vector<Light>& lights) {
+    const EnvironmentLit* const lit = find_technique(session.technique).environment;
+    return lit != nullptr ? lit->samples_per_pixel(technique_parameters(session)) : lights.size();
+}
+
+RenderResult reference_picture(const Technique& technique, const EmbreeScene& embree, const RenderRequest& request,
+                               Progress& progress) {
+    return technique.environment != nullptr ? technique.environment->reference(embree, request, progress)
+                                            : render_reference(embree, request, progress);
+}
+
 Session model_part(const Session& session) {
     Session part;
     part.scene = session.scene;
@@ -107,22 +134,43 @@ Session surfaces_part(const Session& session) {
 
 Session lights_part(const Session& session) {
     Session part = scene_part(session);
+    if (lit_by_environment(session)) {
+        part.technique = session.technique;
+        return part;
+    }
     part.lights = session.lights;
     part.seed = session.seed;
+    return part;
+}
+
+Session environment_part(const Session& session) {
+    Session part;
+    part.environment = session.environment;
+    part.environment.turn_deg = turn_deg(session);
+    part.environment.turn_deg_per_s = 0.0f;
+    if (session.environment.file.empty()) return part;
+    part.environment.sun_elevation_deg = EnvironmentChoice{}.sun_elevation_deg;
+    part.environment.sun_azimuth_deg = EnvironmentChoice{}.sun_azimuth_deg;
     return part;
 }
 
 Session structure_part(const Session& session) {
     Session part = scene_part(session);
     part.technique = session.technique;
-    part.parameters = own_parameters(session, true);
+    part.parameters = own_parameters(session, ParameterAffects::structure);
     part.backend = session.backend;
     return part;
 }
 
 Session reference_part(const Session& session) {
     Session part = surfaces_part(session);
-    part.lights = session.lights;
+    if (lit_by_environment(session)) {
+        part.technique = session.technique;
+        part.parameters = own_parameters(session, ParameterAffects::picture);
+        part.environment = environment_part(session).environment;
+    } else {
+        part.lights = session.lights;
+    }
     part.seed = session.seed;
     part.reference = needs_reference(session);
     return part;
@@ -130,9 +178,8 @@ Session reference_part(const Session& session) {
 
 Session picture_part(const Session& session) {
     Session part = reference_part(session);
-    part.environment = session.environment;
     part.technique = session.technique;
-    part.parameters = own_parameters(session, false);
+    part.parameters = own_parameters(session, std::nullopt);
     part.backend = session.backend;
     return part;
 }
@@ -152,9 +199,16 @@ Session Results::resolved(Session session) const {
     return session;
 }
 
-RenderRequest Results::request(const Session& session, const SurfaceBuffer& surfaces,
-                               const std::vector<Light>& lights) const {
-    RenderRequest request;
+PictureRequest Results::request(const Session& session, const SurfaceBuffer& surfaces, const std::vector<Light>& lights,
+                                Progress& progress) {
+    PictureRequest asked;
+    RenderRequest& request = asked.request;
+    if (lit_by_environment(session)) {
+        asked.environment = environment(session, progress);
+        asked.samples = samples(session, progress);
+        request.environment = &asked.environment->value;
+        request.samples = &asked.samples->value;
+    }
     request.surfaces = &surfaces;
     request.lights = lights;
     request.parameters = technique_parameters(session);
@@ -162,7 +216,7 @@ RenderRequest Results::request(const Session& session, const SurfaceBuffer& surf
     request.seed = session.seed;
     request.threads = threads_;
     request.keep_verdicts = needs_reference(session);
-    return request;
+    return asked;
 }
 
 Shared<SceneModel> Results::model(const Session& session, Progress& progress) {
@@ -194,11 +248,34 @@ Shared<SurfaceBuffer> Results::surfaces(const Session& session, Progress& progre
     });
 }
 
+Shared<EnvironmentLight> Results::environment(const Session& session, Progress& progress) {
+    const Session part = environment_part(session);
+    if (auto ready = environment_.latest(part)) return ready;
+    Session still = part;
+    still.environment.turn_deg = 0.0f;
+    const auto surroundings = surroundings_.get(
+        still, progress, true, [&] { return make_environment_light(make_surroundings(still.environment)); });
+    return environment_.get(part, progress, false,
+                            [&] { return turned(surroundings->value, part.environment.turn_deg); });
+}
+
+Shared<std::any> Results::samples(const Session& session, Progress& progress) {
+    const EnvironmentLit& lit = *find_technique(session.technique).environment;
+    Session part;
+    part.technique = session.technique;
+    part.parameters = own_parameters(session, ParameterAffects::picture);
+    part.seed = session.seed;
+    return samples_.get(part, progress, false,
+                        [&] { return lit.samples(technique_parameters(session), session.seed); });
+}
+
 Shared<std::vector<Light>> Results::lights(const Session& session, Progress& progress) {
     const auto scene = this->scene(session, progress);
-    const std::uint32_t indirect = session.lights.virtual_lights;
+    const bool unlit = lit_by_environment(session);
+    const std::uint32_t indirect = unlit ? 0 : session.lights.virtual_lights;
     const auto embree = indirect > 0 ? this->embree(session, progress) : nullptr;
     return lights_.get(lights_part(session), progress, false, [&] {
+        if (unlit) return std::vector<Light>{};
         std::vector<Light> lights = make_lights(scene->value, session.lights, session.seed);
         if (indirect == 0) return lights;
         if (lights.size() + indirect > max_lights)
@@ -238,26 +315,26 @@ Shared<BuiltStructure> Results::structure(const Session& session, Progress& prog
 
 Shared<RenderResult> Results::picture(const Session& session, Progress& progress, const OnRegion& on_region) {
     const auto lights = this->lights(session, progress);
-    if (needs_reference(session)) check_verdicts(session, lights->value.size());
+    if (needs_reference(session)) check_verdicts(session, lights->value);
     const auto surfaces = this->surfaces(session, progress);
     const auto structure = this->structure(session, progress);
     if (auto ready = latest_picture(session)) return ready;
     return picture_.get(picture_part(resolved(session)), progress, false, [&] {
-        RenderRequest asked = request(session, surfaces->value, lights->value);
-        asked.on_region = on_region;
-        return structure->value.technique->render(structure->value.structure, asked, progress);
+        PictureRequest asked = request(session, surfaces->value, lights->value, progress);
+        asked.request.on_region = on_region;
+        return structure->value.technique->render(structure->value.structure, asked.request, progress);
     });
 }
 
 Shared<RenderResult> Results::reference(const Session& session, Progress& progress, const OnRegion& on_region) {
     const auto lights = this->lights(session, progress);
-    if (needs_reference(session)) check_verdicts(session, lights->value.size());
+    if (needs_reference(session)) check_verdicts(session, lights->value);
     const auto surfaces = this->surfaces(session, progress);
     const auto embree = this->embree(session, progress);
     return reference_.get(reference_part(session), progress, false, [&] {
-        RenderRequest asked = request(session, surfaces->value, lights->value);
-        asked.on_region = on_region;
-        return render_reference(*embree->value, asked, progress);
+        PictureRequest asked = request(session, surfaces->value, lights->value, progress);
+        asked.request.on_region = on_region;
+        return reference_picture(find_technique(session.technique), *embree->value, asked.request, progress);
     });
 }
 
@@ -281,8 +358,9 @@ Shared<ErrorMetrics> Results::compression(const Session& session, Progress& prog
         const Technique& technique = find_technique(session.technique);
         const Structure structure =
             technique.build({&scene->value, technique_parameters(plain), backend(plain), threads_}, progress);
-        return compare(ours->value,
-                       technique.render(structure, request(plain, surfaces->value, lights->value), progress));
+        return compare(
+            ours->value,
+            technique.render(structure, request(plain, surfaces->value, lights->value, progress).request, progress));
     });
 }
 

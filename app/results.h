@@ -91,6 +91,13 @@ private:
 /// Called after each refinement pass over a region with the picture so far (RenderRequest::on_region).
 using OnRegion = std::function<void(const RenderResult& so_far, PixelRect changed)>;
 
+/// A request with what it must not outlive, but for the surfaces and lights.
+struct PictureRequest {
+    Shared<EnvironmentLight> environment;  ///< null where the technique is lit by lights
+    Shared<std::any> samples;              ///< likewise
+    RenderRequest request;
+};
+
 /// All stages of one workbench or one command. Every member may be called from any thread; each throws InputError,
 /// EnvironmentError or Cancelled and then keeps what it had. Everything returned is immutable.
 class Results {
@@ -110,7 +117,12 @@ public:
     Shared<Scene> scene(const Session& session, Progress& progress);
     Shared<std::shared_ptr<const EmbreeScene>> embree(const Session& session, Progress& progress);
     Shared<SurfaceBuffer> surfaces(const Session& session, Progress& progress);
+    /// None where the technique is lit by the environment.
     Shared<std::vector<Light>> lights(const Session& session, Progress& progress);
+    /// Read or made, and turned. Also where the technique does not ask for it.
+    Shared<EnvironmentLight> environment(const Session& session, Progress& progress);
+    /// What each pixel asks of it (EnvironmentLit::samples); the technique must be lit by it.
+    Shared<std::any> samples(const Session& session, Progress& progress);
     Shared<BuiltStructure> structure(const Session& session, Progress& progress);
     /// With verdicts where the session asks for the reference. `on_region` is called only where the picture is made.
     Shared<RenderResult> picture(const Session& session, Progress& progress, const OnRegion& on_region = {});
@@ -130,10 +142,9 @@ public:
     int threads() const { return threads_; }
     /// Where the session's technique runs.
     Backend backend(const Session& session) const;
-    /// What the session asks of a technique for these surfaces, which may be of another size. The arguments must
-    /// outlive what is returned.
-    RenderRequest request(const Session& session, const SurfaceBuffer& surfaces,
-                          const std::vector<Light>& lights) const;
+    /// What the session asks of a technique for these surfaces, which may be of another size.
+    PictureRequest request(const Session& session, const SurfaceBuffer& surfaces, const std::vector<Light>& lights,
+                           Progress& progress);
 
 private:
     Session resolved(Session session) const;
@@ -149,6 +160,8 @@ private:
     Stage<std::shared_ptr<const EmbreeScene>> embree_;
     Stage<SurfaceBuffer> surfaces_;
     Stage<std::vector<Light>> lights_;
+    Stage<EnvironmentLight> surroundings_, environment_;  ///< not turned; turned
+    Stage<std::any> samples_;
     Stage<BuiltStructure> structure_;
     std::any kept_;  ///< for the structure of another time; only its maker touches these two
     std::optional<Session> kept_part_;
@@ -158,6 +171,19 @@ private:
 
 /// In the user's cache (XDG_CACHE_HOME); empty where SIGHTLINES_CACHE is "off".
 std::filesystem::path default_cache_folder();
+
+/// The picture that the session's surroundings are made from, not turned. InputError as read_environment.
+Environment make_surroundings(const EnvironmentChoice& choice);
+
+/// How far the surroundings are turned at the session's time, degrees in (-360, 360).
+float turn_deg(const Session& session);
+
+/// The most rays that a pixel asks: the lights, or its samples of the environment.
+std::size_t rays_per_pixel(const Session& session, const std::vector<Light>& lights);
+
+/// What the technique's picture is compared with: the same rays by the given tree.
+RenderResult reference_picture(const Technique& technique, const EmbreeScene& embree, const RenderRequest& request,
+                               Progress& progress);
 
 /// The camera of the session in `scene`: the free one, else the named one, else the first.
 Camera session_camera(const Session& session, const Scene& scene);
@@ -170,6 +196,7 @@ Session model_part(const Session& session);
 Session scene_part(const Session& session);
 Session surfaces_part(const Session& session);
 Session lights_part(const Session& session);
+Session environment_part(const Session& session);
 Session structure_part(const Session& session);
 Session picture_part(const Session& session);
 Session reference_part(const Session& session);

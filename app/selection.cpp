@@ -8,6 +8,7 @@
 #include "shaders/lighting.h"
 #include "techniques/base/error.h"
 #include "techniques/rays/light_records.h"
+#include "techniques/rays/open_rays.h"
 
 namespace sightlines {
 namespace {
@@ -38,7 +39,8 @@ ivec2 checked_pixel(const SurfaceBuffer& surfaces, ivec2 pixel) {
     return pixel;
 }
 
-ivec2 middle_pixel(const SurfaceBuffer& surfaces, const std::vector<Light>& lights) {
+/// `any_surface`: every pixel that shows a surface asks.
+ivec2 middle_pixel(const SurfaceBuffer& surfaces, const std::vector<Light>& lights, bool any_surface) {
     const ImageSize size = surfaces.size;
     std::optional<ivec2> best;
     int best_distance = 0;
@@ -49,26 +51,32 @@ ivec2 middle_pixel(const SurfaceBuffer& surfaces, const std::vector<Light>& ligh
             if (best && distance >= best_distance) continue;
             const std::size_t pixel =
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x);
-            if (!asks_any(surfaces, pixel, lights)) continue;
+            const bool asks = any_surface ? surfaces.triangle[pixel] != no_triangle : asks_any(surfaces, pixel, lights);
+            if (!asks) continue;
             best = ivec2(x, y);
             best_distance = distance;
         }
     }
     if (!best)
-        throw InputError("scene", "", "no pixel of the picture has a light in front of its surface",
-                         "choose another camera, or --lights 16");
+        throw InputError("scene", "",
+                         any_surface ? "no pixel of the picture shows a surface"
+                                     : "no pixel of the picture has a light in front of its surface",
+                         any_surface ? "choose another camera" : "choose another camera, or --lights 16");
     return *best;
 }
 
-void check_light(std::uint32_t light, ivec2 pixel, std::span<const std::uint32_t> asked, std::size_t light_count) {
+/// `thing`: "light" or "sample".
+void check_light(std::uint32_t light, ivec2 pixel, std::span<const std::uint32_t> asked, std::size_t light_count,
+                 const std::string& thing) {
     if (light >= light_count)
         throw InputError("--light", "", std::to_string(light) + " does not exist",
-                         light_count == 0 ? "there are no lights" : "0 to " + std::to_string(light_count - 1));
+                         light_count == 0 ? "there are no " + thing + "s" : "0 to " + std::to_string(light_count - 1));
     if (std::ranges::find(asked, light) != asked.end()) return;
     const auto after = std::ranges::lower_bound(asked, light);
     const std::string near =
-        asked.empty() ? "no light is in front of it"
-                      : "light " + std::to_string(after == asked.end() ? asked.back() : *after) + " is in front of it";
+        asked.empty()
+            ? "no " + thing + " is in front of it"
+            : thing + " " + std::to_string(after == asked.end() ? asked.back() : *after) + " is in front of it";
     throw InputError(
         "--light", "",
         std::to_string(light) + " stands behind the surface at pixel " + pixel_text(pixel) + ", so no ray is asked",
@@ -78,7 +86,8 @@ void check_light(std::uint32_t light, ivec2 pixel, std::span<const std::uint32_t
 /// All that a pixel's rays are recorded and judged with.
 struct PixelRecorder {
     Shared<SurfaceBuffer> surfaces;
-    Shared<std::vector<Light>> lights;
+    std::vector<Light> lights{};  ///< or the pixel's samples of the environment
+    bool samples = false;         ///< which of the two
     Shared<BuiltStructure> structure;
     Shared<std::shared_ptr<const EmbreeScene>> embree;
     ParameterValues parameters;
@@ -86,12 +95,21 @@ struct PixelRecorder {
     std::size_t index = 0;               ///< of the pixel
     std::vector<std::uint32_t> asked{};  ///< by the pixel, in order
 
+    std::string thing() const { return samples ? "sample" : "light"; }
+
+    /// By the ray that the reference asks.
+    bool is_truly_blocked(const SelectedRay& ray) const {
+        const TraceRequest& from = ray.request;
+        if (!samples) return occluded(*embree->value, ray.trace.ray, from.normal);
+        return is_blocked(*embree->value, lifted_off(*embree->value, from.position, from.normal),
+                          -from.light.direction);
+    }
+
     SelectedRay record(std::uint32_t light) const {
         SelectedRay recorded{pixel, light, {}, {}, false};
-        recorded.request = {surfaces->value.position[index], surfaces->value.normal[index], lights->value[light],
-                            parameters};
+        recorded.request = {surfaces->value.position[index], surfaces->value.normal[index], lights[light], parameters};
         recorded.trace = structure->value.technique->trace(structure->value.structure, recorded.request);
-        recorded.truly_blocked = occluded(*embree->value, recorded.trace.ray, recorded.request.normal);
+        recorded.truly_blocked = is_truly_blocked(recorded);
         return recorded;
     }
 };
@@ -99,17 +117,20 @@ struct PixelRecorder {
 PixelRecorder pixel_recorder(const Session& session, std::optional<ivec2> known_pixel, Results& results,
                              Progress& progress) {
     PixelRecorder recorder;
-    recorder.lights = results.lights(session, progress);
+    const auto lights = results.lights(session, progress);
+    recorder.samples = lit_by_environment(session);
     recorder.surfaces = results.surfaces(session, progress);
     const SurfaceBuffer& surfaces = recorder.surfaces->value;
     recorder.pixel = session.selection.pixel ? checked_pixel(surfaces, *session.selection.pixel)
                      : known_pixel           ? checked_pixel(surfaces, *known_pixel)
-                                             : middle_pixel(surfaces, recorder.lights->value);
+                                             : middle_pixel(surfaces, lights->value, recorder.samples);
     recorder.index = static_cast<std::size_t>(recorder.pixel.y) * static_cast<std::size_t>(session.size.width) +
                      static_cast<std::size_t>(recorder.pixel.x);
-    recorder.asked = asked_lights(surfaces, recorder.index, recorder.lights->value);
+    recorder.lights = pixel_lights(session, recorder.index, results, progress);
+    recorder.asked = asked_lights(surfaces, recorder.index, recorder.lights);
     if (recorder.asked.empty())
-        throw InputError("--pixel", "", pixel_text(recorder.pixel) + " has no light in front of its surface",
+        throw InputError("--pixel", "",
+                         pixel_text(recorder.pixel) + " has no " + recorder.thing() + " in front of its surface",
                          "choose another pixel");
     recorder.structure = results.structure(session, progress);
     recorder.embree = results.embree(session, progress);
@@ -140,6 +161,14 @@ std::vector<std::uint32_t> asked_lights(const SurfaceBuffer& surfaces, std::size
     return asked;
 }
 
+std::vector<Light> pixel_lights(const Session& session, std::size_t pixel, Results& results, Progress& progress) {
+    const auto lights = results.lights(session, progress);
+    const EnvironmentLit* const lit = find_technique(session.technique).environment;
+    if (lit == nullptr) return lights->value;
+    const auto surfaces = results.surfaces(session, progress);
+    return lit->lights(results.request(session, surfaces->value, lights->value, progress).request, pixel);
+}
+
 PixelRays pixel_rays(const Session& session, Results& results, Progress& progress) {
     const PixelRecorder recorder = pixel_recorder(session, std::nullopt, results, progress);
     const Box3 bounds = results.scene(session, progress)->value.bounds;
@@ -157,7 +186,7 @@ PixelRays pixel_rays(const Session& session, Results& results, Progress& progres
 SelectedRay select_ray(const Session& session, const PixelRays& rays, Results& results, Progress& progress) {
     const PixelRecorder recorder = pixel_recorder(session, rays.pixel, results, progress);
     if (session.selection.light) {
-        check_light(*session.selection.light, recorder.pixel, recorder.asked, recorder.lights->value.size());
+        check_light(*session.selection.light, recorder.pixel, recorder.asked, recorder.lights.size(), recorder.thing());
         return recorder.record(*session.selection.light);
     }
     auto row = std::ranges::find_if(rays.rows, &RayRow::wrong);
@@ -169,7 +198,7 @@ SelectedRay select_ray(const Session& session, const PixelRays& rays, Results& r
 SelectedRay select_ray(const Session& session, Results& results, Progress& progress) {
     if (!session.selection.light) return select_ray(session, pixel_rays(session, results, progress), results, progress);
     const PixelRecorder recorder = pixel_recorder(session, std::nullopt, results, progress);
-    check_light(*session.selection.light, recorder.pixel, recorder.asked, recorder.lights->value.size());
+    check_light(*session.selection.light, recorder.pixel, recorder.asked, recorder.lights.size(), recorder.thing());
     return recorder.record(*session.selection.light);
 }
 

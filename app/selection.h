@@ -8,7 +8,8 @@
 
 namespace sightlines {
 
-/// One shadow ray of the picture, recorded by the technique and judged by Embree.
+/// One shadow ray of the picture, or one sample of the environment, which is a directional light here; recorded by the
+/// technique and judged by Embree.
 struct SelectedRay {
     ivec2 pixel{0};
     std::uint32_t light = 0;
@@ -45,6 +46,10 @@ struct PixelRays {
 /// Every ray of the pixel that the session selects (the one that select_ray takes), judged by the technique and by
 /// Embree. InputError as select_ray.
 PixelRays pixel_rays(const Session& session, Results& results, Progress& progress);
+
+/// What a pixel that shows a surface may ask: the session's lights, or the pixel's own samples of the environment as
+/// directional lights.
+std::vector<Light> pixel_lights(const Session& session, std::size_t pixel, Results& results, Progress& progress);
 
 /// The lights in front of a surface, in order: those that its pixel asks.
 std::vector<std::uint32_t> asked_lights(const SurfaceBuffer& surfaces, std::size_t pixel,

@@ -25,8 +25,9 @@ constexpr std::array<std::string_view, 3> backend_names{"automatic", "cpu", "vul
 constexpr std::array<std::string_view, 2> camera_kind_names{"perspective", "orthographic"};
 constexpr std::array<std::string_view, 3> theme_names{"light", "dark", "print"};
 constexpr std::array<std::string_view, 2> cut_away_names{"none", "to_row"};
-constexpr std::array<std::string_view, 8> channel_names{"lit",          "reference", "shadow",      "visibility_error",
-                                                        "shadow_error", "rays",      "lights_seen", "compression"};
+constexpr std::array<std::string_view, 9> channel_names{"lit",          "reference", "shadow",      "visibility_error",
+                                                        "shadow_error", "rays",      "lights_seen", "compression",
+                                                        "rays_traced"};
 
 constexpr std::array<std::string_view, pane_count> content_names{"image",  "inside", "rays",
                                                                  "source", "values", "parameters"};
@@ -52,6 +53,14 @@ constexpr auto describe_lights = [](auto& fields, auto& lights) {
     fields.number("brightness", lights.brightness, 0.0f, 1e6f);
     fields.list("moved", lights.moved, max_moved_lights, describe_moved_light);
     fields.number("virtual_lights", lights.virtual_lights, 0u, max_lights);
+};
+
+constexpr auto describe_environment = [](auto& fields, auto& environment) {
+    fields.text("file", environment.file, max_text_bytes);
+    fields.number("sun_elevation_deg", environment.sun_elevation_deg, -90.0f, 90.0f);
+    fields.number("sun_azimuth_deg", environment.sun_azimuth_deg, -360.0f, 360.0f);
+    fields.number("turn_deg", environment.turn_deg, -360.0f, 360.0f);
+    fields.number("turn_deg_per_s", environment.turn_deg_per_s, -3600.0f, 3600.0f);
 };
 
 constexpr auto describe_camera = [](auto& fields, auto& camera) {
@@ -129,7 +138,7 @@ constexpr auto describe_session = [](auto& fields, auto& session) {
     fields.optional_object("free_camera", session.free_camera, describe_camera);
     fields.object("size", session.size, describe_size);
     fields.object("lights", session.lights, describe_lights);
-    fields.text("environment", session.environment, max_text_bytes);
+    fields.object("environment", session.environment, describe_environment);
     fields.text("technique", session.technique, max_text_bytes);
     fields.choice("backend", session.backend, backend_names);
     fields.number("seed", session.seed, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
@@ -201,6 +210,8 @@ bool needs_reference(const Session& session) {
            session.channel == Channel::shadow_error || session.channel == Channel::compression;
 }
 
+bool lit_by_environment(const Session& session) { return find_technique(session.technique).environment != nullptr; }
+
 ParameterValues technique_parameters(const Session& session) {
     const auto found = session.parameters.find(session.technique);
     return found == session.parameters.end() ? ParameterValues{} : found->second;
@@ -213,8 +224,11 @@ Json json_from_session(const Session& session) {
     return fields.take();
 }
 
-Session session_from_json(const Json& json, const std::string& where) {
+Session session_from_json(const Json& given, const std::string& where) {
     Session session;
+    Json json = given;
+    if (json.is_object() && json.contains("environment") && json["environment"].is_string())
+        json["environment"] = {{"file", json["environment"]}};
     FieldReader fields(json, where, "");
     describe_session(fields, session);
     technique_at(session.technique, fields, "/technique");
@@ -269,16 +283,16 @@ Session load_session(const fs::path& file) {
 Json with_paths_in(Json json, const fs::path& folder, const std::string& where) {
     if (!json.is_object()) return json;
     const fs::path home = fs::weakly_canonical(fs::absolute(folder.empty() ? fs::path(".") : folder));
-    for (const char* field : {"scene", "environment"}) {
-        const auto found = json.find(field);
-        if (found == json.end() || !found->is_string()) continue;
-        const auto path = found->get<std::string>();
+    for (const char* field : {"/scene", "/environment", "/environment/file"}) {
+        const Json::json_pointer place(field);
+        if (!json.contains(place) || !json[place].is_string()) continue;
+        const auto path = json[place].get<std::string>();
         if (path.empty() || is_builtin(path)) continue;
         const fs::path relative = fs::weakly_canonical(fs::absolute(folder / path)).lexically_relative(home);
         if (relative.empty() || *relative.begin() == "..")
-            throw InputError(where, std::string("/") + field, path + " lies outside the session's folder",
+            throw InputError(where, field, path + " lies outside the session's folder",
                              "move it there, or name it on the command line");
-        *found = (folder / path).string();
+        json[place] = (folder / path).string();
     }
     return json;
 }
@@ -286,7 +300,8 @@ Json with_paths_in(Json json, const fs::path& folder, const std::string& where) 
 void save_session(const fs::path& file, Session session) {
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
     if (!is_builtin(session.scene)) session.scene = fs::proximate(session.scene, folder).generic_string();
-    if (!session.environment.empty()) session.environment = fs::proximate(session.environment, folder).generic_string();
+    std::string& surroundings = session.environment.file;
+    if (!surroundings.empty()) surroundings = fs::proximate(surroundings, folder).generic_string();
     write_file(file, json_from_session(session).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

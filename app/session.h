@@ -32,9 +32,19 @@ constexpr std::size_t max_moved_lights = 256;
 /// `automatic`: Vulkan on a real GPU, the CPU where there is none.
 enum class BackendChoice { automatic, cpu, vulkan };
 
-/// Which picture is shown: radiance by the technique or by the reference, one of the technique's companions, or what its
-/// compression changed.
-enum class Channel { lit, reference, shadow, visibility_error, shadow_error, rays, lights_seen, compression };
+/// Which picture is shown: radiance by the technique or by the reference, one of the technique's companions, or what
+/// its compression changed.
+enum class Channel {
+    lit,
+    reference,
+    shadow,
+    visibility_error,
+    shadow_error,
+    rays,
+    lights_seen,
+    compression,
+    rays_traced
+};
 
 /// What the user points at. `light` counts the session's lights, `step` the recorded steps of that ray.
 struct Selection {
@@ -83,12 +93,23 @@ struct Workbench {
     Theme theme = Theme::dark;  ///< light or dark
     float text_scale = 1.0f;    ///< on top of the monitor's
     Layout layout;
-    bool fit_picture = false;   ///< the picture's size follows its pane
+    bool fit_picture = false;  ///< the picture's size follows its pane
     RayColumn sorted_by = RayColumn::error;
     bool descending = true;
     bool lights_shown = false;  ///< all lights, as dots on the image
 
     bool operator==(const Workbench&) const = default;
+};
+
+/// What surrounds the scene, for techniques that are lit by that instead of lights.
+struct EnvironmentChoice {
+    std::string file;                 ///< a picture of the surroundings, .hdr; empty: a made-up sky
+    float sun_elevation_deg = 45.0f;  ///< of the sky's sun above the horizon
+    float sun_azimuth_deg = 30.0f;    ///< from -Z towards +X
+    float turn_deg = 0.0f;            ///< about +Y, from -Z towards +X, file or sky
+    float turn_deg_per_s = 0.0f;      ///< and so much more with the session's time
+
+    bool operator==(const EnvironmentChoice&) const = default;
 };
 
 struct Session {
@@ -98,7 +119,7 @@ struct Session {
     std::optional<Camera> free_camera;  ///< wins over `camera`: the user has moved
     ImageSize size;
     LightChoice lights;
-    std::string environment;  ///< a picture of the sky; empty: none
+    EnvironmentChoice environment;
     std::string technique = "voxel_rows";
     std::map<std::string, ParameterValues> parameters;  ///< by technique; those that differ from its table's defaults
     BackendChoice backend = BackendChoice::automatic;
@@ -117,15 +138,18 @@ struct Session {
 /// compares.
 bool needs_reference(const Session& session);
 
+/// Whether the session's technique is lit by the environment; otherwise by the lights. The other is left out.
+bool lit_by_environment(const Session& session);
+
 /// The parameters of the session's own technique.
 ParameterValues technique_parameters(const Session& session);
 
 /// Every field, except optional ones that are not set and parameters at their defaults.
 Json json_from_session(const Session& session);
 
-/// A field that is missing or null has its default, so `{}` is `Session{}`. `where` names the source in messages.
-/// InputError, with the JSON pointer, for a key that is not known (offers the nearest), a wrong type, a value out of
-/// range, an unknown technique or parameter.
+/// A field that is missing or null has its default, so `{}` is `Session{}`. An environment may be its file's name
+/// alone. `where` names the source in messages. InputError, with the JSON pointer, for a key that is not known (offers
+/// the nearest), a wrong type, a value out of range, an unknown technique or parameter.
 Session session_from_json(const Json& json, const std::string& where);
 
 /// `session` changed by a merge patch (RFC 7386), checked afterwards as above: a step of a lesson, or a further file.

@@ -109,11 +109,12 @@ std::string text_from_trace(const Session& session, const SelectedRay& ray) {
     const Segment& segment = ray.trace.ray;
     const std::string title(find_technique(session.technique).title);
     TextTable head;
-    head.rows = {{"ray", "pixel " + std::to_string(ray.pixel.x) + "," + std::to_string(ray.pixel.y) + " of " +
-                             session.scene + " to light " + std::to_string(ray.light) + ", " +
-                             fixed_text(static_cast<double>(glm::length(segment.target - segment.origin)), 3) + " m"},
-                 {"from", point_text(segment.origin) + " m"},
-                 {"to", point_text(segment.target) + " m"}};
+    head.rows = {
+        {"ray", "pixel " + std::to_string(ray.pixel.x) + "," + std::to_string(ray.pixel.y) + " of " + session.scene +
+                    (lit_by_environment(session) ? ", sample " : " to light ") + std::to_string(ray.light) + ", " +
+                    fixed_text(static_cast<double>(glm::length(segment.target - segment.origin)), 3) + " m"},
+        {"from", point_text(segment.origin) + " m"},
+        {"to", point_text(segment.target) + " m"}};
     std::string text = text_from(head) + "\n";
     TextTable lines;
     lines.align = {TableAlign::right};

@@ -105,6 +105,23 @@ FN Mask is_set(CellMask mask, Int texel) {
     return (shift_right(word, to_uint(texel & splat(31))) & splat(1u)) != splat(0u);
 }
 
+/// Both masks' bits at a texel: for whoever follows one ray, as the renderer reads only the mask that it needs.
+struct MaskBits {
+    Mask visible;
+    Mask occluded;
+};
+
+FN MaskBits mask_bits(CellMask visible, CellMask occluded, Int texel) {
+    MaskBits bits;
+    bits.visible = is_set(visible, texel);
+    bits.occluded = is_set(occluded, texel);
+    NOTE("Algorithm 2, line 8", "What the two masks say of the texel: some point of the cell saw the environment there; "
+                                "some point saw a surface.");
+    SHOW(bits.visible);
+    SHOW(bits.occluded);
+    return bits;
+}
+
 /// A ray from a surface outside all cells that hold masks: nothing is known.
 FN Decision decide_without_masks(Mask above) {
     Decision decision;
@@ -149,6 +166,20 @@ FN Decision decide_by_both(Mask above, Mask visible, Mask occluded) {
     SHOW(decision.blocked);
     SHOW(decision.open);
     return decision;
+}
+
+/// What a sample adds to its pixel's irradiance (equation 11). `share`: what it brings where nothing is in the way;
+/// `subtracts`: the pixel starts from its unshadowed irradiance, and what is blocked is taken off.
+FN vec3 sample_adds(bool subtracts, bool blocked, vec3 share) {
+    const float sign = subtracts ? (blocked ? -1.0f : 0.0f) : (blocked ? 0.0f : 1.0f);
+    const vec3 adds = share * sign;
+    NOTE("Algorithm 2, lines 25 to 28", "The answer, Embree's where the ray was traced. A pixel of label 0 starts "
+                                        "from its unshadowed irradiance, and blocked samples are taken off; others add "
+                                        "up what is open.");
+    SHOW(blocked);
+    SHOW(subtracts);
+    SHOW(adds);
+    return adds;
 }
 
 KERNEL_END

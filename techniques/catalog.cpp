@@ -5,14 +5,16 @@
 #include "techniques/base/error.h"
 #include "techniques/baselines/baselines.h"
 #include "techniques/technique.h"
+#include "techniques/visibility_field/visibility_field.h"
 #include "techniques/voxel_rows/voxel_rows.h"
 
 namespace sightlines {
 
 std::span<const Technique> techniques() {
-    static const std::array rows{
-        voxel_rows::technique(),  baselines::voxel_marching(),        baselines::row_marching(),
-        baselines::shadow_maps(), baselines::imperfect_shadow_maps(), baselines::ray_tracing()};
+    static const std::array rows{voxel_rows::technique(),     visibility_field::technique(),
+                                 baselines::voxel_marching(), baselines::row_marching(),
+                                 baselines::shadow_maps(),    baselines::imperfect_shadow_maps(),
+                                 baselines::ray_tracing()};
     return rows;
 }
 

@@ -14,6 +14,7 @@
 #include "techniques/base/image.h"
 #include "techniques/base/parameters.h"
 #include "techniques/base/progress.h"
+#include "techniques/scene/environment_light.h"
 #include "techniques/scene/scene.h"
 #include "techniques/scene/surface_buffer.h"
 
@@ -38,6 +39,8 @@ struct RenderResult;
 struct RenderRequest {
     const SurfaceBuffer* surfaces = nullptr;
     std::span<const Light> lights;
+    const EnvironmentLight* environment = nullptr;  ///< not null where the technique is lit by it, instead of lights
+    const std::any* samples = nullptr;              ///< EnvironmentLit::samples; null: the technique makes them itself
     ParameterValues parameters;
     Backend backend = Backend::cpu;
     std::uint64_t seed = 1;
@@ -57,6 +60,7 @@ struct RenderResult {
     Verdicts verdicts;                ///< empty unless asked for
     std::uint64_t rays = 0;           ///< sum of rays_asked
     std::uint64_t rays_traced = 0;    ///< by Embree, for techniques that fall back on it
+    Image<std::uint32_t> traced;      ///< of rays_traced, those of each pixel; empty where all or none are
     double seconds = 0.0;             ///< wall clock of the technique's own work
     std::string device;               ///< "CPU, 2 threads, AVX3" or the Vulkan device's name
 };
@@ -101,6 +105,21 @@ struct BuildRequest {
     std::filesystem::path cache_folder = {};  ///< for what takes long to build, between runs; empty: nothing is kept
 };
 
+struct EmbreeScene;
+
+/// What a technique offers that is lit by the environment: each pixel asks samples of it instead of lights. Sample k
+/// plays the part of light k everywhere: in verdicts, in rays_asked (samples above the surface), in traces.
+struct EnvironmentLit {
+    std::uint32_t (*samples_per_pixel)(const ParameterValues&);
+    /// What all pixels' samples are made from (RenderRequest::samples). Takes a moment: to be made once.
+    std::any (*samples)(const ParameterValues&, std::uint64_t seed);
+    /// The samples of a pixel that shows a surface, as directional lights; a light's intensity is what its sample adds
+    /// to the pixel's irradiance where nothing is in the way, W/m^2. The request's environment and samples are given.
+    std::vector<Light> (*lights)(const RenderRequest&, std::size_t pixel);
+    /// The same samples, each of them traced by the given tree.
+    RenderResult (*reference)(const EmbreeScene&, const RenderRequest&, Progress&);
+};
+
 /// One row of the catalog. Plain functions; no state.
 struct Technique {
     std::string_view name;                     ///< "voxel_rows"
@@ -117,6 +136,8 @@ struct Technique {
     bool on_vulkan = true;
     /// What the next moment of the same scene can use of this one; null: nothing.
     std::any (*kept)(const Structure&) = nullptr;
+    /// Null: it is lit by lights.
+    const EnvironmentLit* environment = nullptr;
 };
 
 /// The explicit list of techniques (techniques/catalog.cpp).

@@ -15,7 +15,6 @@
 #include "app/commands/flags.h"
 #include "techniques/base/error.h"
 #include "techniques/base/files.h"
-#include "techniques/scene/environment.h"
 
 namespace sightlines {
 namespace {
@@ -24,7 +23,7 @@ struct BenchFlags {
     std::string table, repetitions;
     SessionFlags session;
     CommonFlags common;
-    std::filesystem::path out, environment;
+    std::filesystem::path out;
     bool quick = false;
 };
 
@@ -95,8 +94,7 @@ BenchRun table_run(const BenchFlags& flags) {
     run.base.size = flags.quick ? ImageSize{160, 90} : ImageSize{480, 270};
     if (flags.quick) run.base.parameters["voxel_rows"] = {{"resolution", 64.0}, {"angle_step", 6.0}};
     run.base = session_with_flags(run.base, flags.session);
-    if (!flags.environment.empty()) read_environment(flags.environment);  // a bad one is refused now, not hours later
-    run.base.environment = flags.environment.string();
+    make_surroundings(run.base.environment);  // a bad one is refused now, not hours later
     if (!flags.session.scene.empty()) run.scenes = {run.base.scene};
     if (!flags.common.quiet)
         run.say = [](const std::string& what) { std::fprintf(stderr, "sightlines: %s\n", what.c_str()); };
@@ -185,10 +183,6 @@ void add_bench_command(CLI::App& app, Command& chosen) {
     command.add_option("--repetitions", flags->repetitions, "How often each is measured; the median counts")
         ->type_name("R");
     command.add_flag("--quick", flags->quick, "A small picture with few lights: shows that it works, measures little");
-    command
-        .add_option("--environment", flags->environment,
-                    "The light of the visibility field's tables, an .hdr picture; else a built-in sky")
-        ->type_name("FILE");
     command
         .add_option("--out", flags->out,
                     "Write each table into this folder: Markdown and CSV, and a chart (SVG) or JSON")

@@ -87,6 +87,25 @@ Camera pose_camera(const std::string& text) {
     return camera;
 }
 
+/// ELEVATION,AZIMUTH
+void set_sun(EnvironmentChoice& environment, const std::string& text) {
+    const std::size_t comma = text.find(',');
+    if (comma == std::string::npos)
+        throw InputError("--sun", "", "'" + text + "' is not two angles", "for example --sun 30,-45");
+    environment.sun_elevation_deg = static_cast<float>(real_number("--sun", text.substr(0, comma), -90.0, 90.0));
+    environment.sun_azimuth_deg = static_cast<float>(real_number("--sun", text.substr(comma + 1), -360.0, 360.0));
+}
+
+void set_environment(EnvironmentChoice& environment, const SessionFlags& flags) {
+    if (!flags.environment.empty()) environment.file = flags.environment == "sky" ? "" : flags.environment;
+    if (!flags.sun.empty()) set_sun(environment, flags.sun);
+    if (!flags.sun.empty() && !environment.file.empty())
+        throw InputError("--sun", "", "moves the sun of the made-up sky, not of " + environment.file,
+                         "leave one of them out, or --turn");
+    if (!flags.turn_deg.empty())
+        environment.turn_deg = static_cast<float>(real_number("--turn", flags.turn_deg, -360.0, 360.0));
+}
+
 CLI::Validator not_empty() {
     return CLI::Validator([](std::string& text) { return text.empty() ? std::string("is empty") : std::string(); }, "");
 }
@@ -108,6 +127,11 @@ void add_session_flags(CLI::App& command, SessionFlags& flags) {
            "Indirect light: at most so many more lights where the light of the others falls", "N");
     option("--placement", flags.placement, "Where they are: volume (spread through the scene) or sphere (around it)",
            "P");
+    option("--environment", flags.environment,
+           "What surrounds the scene, for techniques that are lit by it: an .hdr picture, or sky", "FILE|sky");
+    option("--sun", flags.sun, "Where the sky's sun is: above the horizon, and from -Z towards +X, in degrees",
+           "ELEVATION,AZIMUTH");
+    option("--turn", flags.turn_deg, "How far the surroundings are turned about +Y, in degrees", "DEG");
     option("--time", flags.time_s, "The moment of the scene's animation, in seconds", "S");
     command.add_option("--set", flags.parameters, "Parameters: see `sightlines list parameters`")
         ->type_name("name=value")
@@ -122,7 +146,9 @@ void add_selection_flags(CLI::App& command, SessionFlags& flags) {
     command.add_option("--pixel", flags.pixel, "The pixel that is looked at; 0,0 is the top left corner")
         ->type_name("X,Y")
         ->check(not_empty());
-    command.add_option("--light", flags.light, "The light that its ray goes to, counted from 0")
+    command
+        .add_option("--light", flags.light,
+                    "The light that its ray goes to, or its sample of the environment, counted from 0")
         ->type_name("K")
         ->check(not_empty());
 }
@@ -157,6 +183,7 @@ Session session_with_flags(Session session, const SessionFlags& flags) {
     if (!flags.placement.empty())
         session.lights.placement =
             static_cast<LightPlacement>(choice_of("--placement", flags.placement, {"volume", "sphere"}));
+    set_environment(session.environment, flags);
     if (!flags.time_s.empty()) session.time_s = real_number("--time", flags.time_s, -1e9, 1e9);
     if (!flags.backend.empty())
         session.backend =

@@ -18,6 +18,7 @@ namespace sightlines {
 /// InputError that names its flag.
 struct SessionFlags {
     std::string technique, scene, camera, size, lights, virtual_lights, placement, time_s, backend, seed, pixel, light;
+    std::string environment, sun, turn_deg;
     std::vector<std::string> parameters;  ///< name=value
     bool reference = false;
 };

@@ -40,9 +40,14 @@ CommandOutput render_to_files(Session session, const RenderOutputs& outputs, Res
     RenderReport report = render_session(session, results, progress);
     if (!outputs.compression_picture.empty()) report.compression = results.compression(session, progress);
     CommandOutput output{{}, report.scene->value.notes};
-    if (!session.environment.empty())
-        output.notes.push_back("the environment " + session.environment + " is left out: " + session.technique +
-                               " knows lights only");
+    if (report.environment) {
+        const auto& notes = report.environment->value.map->notes;
+        output.notes.insert(output.notes.end(), notes.begin(), notes.end());
+        if (session.lights != LightChoice{})
+            output.notes.push_back("the lights are left out: " + session.technique + " is lit by the environment only");
+    } else if (session.environment != EnvironmentChoice{}) {
+        output.notes.push_back("the environment is left out: " + session.technique + " knows lights only");
+    }
     progress.check();
     if (outputs.picture.extension() == ".hdr")
         write_image(outputs.picture, report.picture->value.radiance, session.display);

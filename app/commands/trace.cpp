@@ -29,7 +29,7 @@ std::uint32_t light_of_ray(const Session& session, const std::string& text, Resu
     const auto surfaces = results.surfaces(session, progress);
     const auto pixel = static_cast<std::size_t>(any.pixel.y) * static_cast<std::size_t>(session.size.width) +
                        static_cast<std::size_t>(any.pixel.x);
-    const auto asked = asked_lights(surfaces->value, pixel, results.lights(session, progress)->value);
+    const auto asked = asked_lights(surfaces->value, pixel, pixel_lights(session, pixel, results, progress));
     return asked[static_cast<std::size_t>(whole_number("--ray", text, 0, static_cast<std::int64_t>(asked.size()) - 1))];
 }
 

@@ -64,7 +64,8 @@ fs::path state_folder() {
 
 void save_own_session(const fs::path& file, Session session) {
     if (!is_builtin(session.scene)) session.scene = fs::absolute(session.scene).string();
-    if (!session.environment.empty()) session.environment = fs::absolute(session.environment).string();
+    std::string& surroundings = session.environment.file;
+    if (!surroundings.empty()) surroundings = fs::absolute(surroundings).string();
     make_folder_of(file);
     write_file(file, json_from_session(session).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }

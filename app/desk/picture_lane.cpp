@@ -36,6 +36,7 @@ struct Job {
 
     Background::Objects& objects() const { return lane.objects; }
     Results& results() const { return lane.objects.results; }
+    std::size_t rays_per_pixel() const { return sightlines::rays_per_pixel(session, lights->value); }
 };
 
 Session small_session(Session session) {
@@ -75,14 +76,18 @@ void make_preview(const Job& job) {
     const auto embree = job.results().embree(job.session, job.progress);
     const SurfaceBuffer& surfaces = small_surfaces(job, small);
     const std::vector<Light> lights = few_lights(job.lights->value);
-    // Not Results' own request, which would have to know the backend first: asking the driver takes time.
-    RenderRequest request;
+    PictureRequest asked;
+    if (lit_by_environment(job.session)) asked = job.results().request(small, surfaces, lights, job.progress);
+    // Otherwise not Results' own request, which would have to know the backend first: asking the driver takes time.
+    RenderRequest& request = asked.request;
     request.surfaces = &surfaces;
     request.lights = lights;
     request.threads = job.results().threads();
-    const RenderResult result = render_reference(*embree->value, request, job.progress);
+    request.keep_verdicts = false;
+    const RenderResult result =
+        reference_picture(find_technique(job.session.technique), *embree->value, request, job.progress);
     const Session looks = with_newest_looks(job.objects(), job.session);
-    put_out_picture(job.objects(), pixels_of(looks, {&result, nullptr, nullptr, lights.size()}), looks,
+    put_out_picture(job.objects(), pixels_of(looks, {&result, nullptr, nullptr, rays_per_pixel(small, lights)}), looks,
                     PictureState::preview);
 }
 
@@ -162,11 +167,12 @@ Shared<BuiltStructure> prepare_structure(const Job& job) {
 void make_draft(const Job& job) {
     const Shared<BuiltStructure> structure = prepare_structure(job);
     const Session small = small_session(job.session);
-    RenderRequest request = job.results().request(small, small_surfaces(job, small), job.lights->value);
-    request.keep_verdicts = false;
-    const RenderResult result = structure->value.technique->render(structure->value.structure, request, job.progress);
+    PictureRequest asked = job.results().request(small, small_surfaces(job, small), job.lights->value, job.progress);
+    asked.request.keep_verdicts = false;
+    const RenderResult result =
+        structure->value.technique->render(structure->value.structure, asked.request, job.progress);
     const Session looks = with_newest_looks(job.objects(), job.session);
-    put_out_picture(job.objects(), pixels_of(looks, {&result, nullptr, nullptr, job.lights->value.size()}), looks,
+    put_out_picture(job.objects(), pixels_of(looks, {&result, nullptr, nullptr, job.rays_per_pixel()}), looks,
                     PictureState::draft);
 }
 
@@ -175,7 +181,7 @@ void make_draft(const Job& job) {
 void put_out_finished(const Job& job, const RenderResult& picture, const RenderResult* reference = nullptr,
                       const ErrorMetrics* errors = nullptr, const ErrorMetrics* compression = nullptr) {
     const Session looks = with_newest_looks(job.objects(), job.session);
-    const ChannelSource from{&picture, reference, errors, job.lights->value.size(), compression};
+    const ChannelSource from{&picture, reference, errors, job.rays_per_pixel(), compression};
     put_out_picture(job.objects(), pixels_of(looks, from), looks,
                     can_show(looks.channel, from) ? PictureState::complete : PictureState::refining);
 }
@@ -228,7 +234,7 @@ bool channel_is_shown(const Job& job) {
 
 /// The reference, shown as it comes where the session looks at it; the looks of the lit picture change meanwhile.
 Shared<RenderResult> make_reference(const Job& job, const Shared<RenderResult>& picture) {
-    Refining refining = start_refining(job.objects(), job.session, job.lights->value.size());
+    Refining refining = start_refining(job.objects(), job.session, job.rays_per_pixel());
     refining.technique = &picture->value;
     std::uint64_t looks = newest_number(job.objects());
     const auto on_region = [&](const RenderResult& so_far, PixelRect changed) {
@@ -262,7 +268,7 @@ void compare_with_reference(const Job& job, const Shared<RenderResult>& picture)
 /// The technique's picture, finer and finer on the screen.
 Shared<RenderResult> refined_picture(const Job& job) {
     if (auto ready = job.results().latest_picture(job.session)) return ready;
-    Refining refining = start_refining(job.objects(), job.session, job.lights->value.size());
+    Refining refining = start_refining(job.objects(), job.session, job.rays_per_pixel());
     OnRegion on_region = [&](const RenderResult& so_far, PixelRect changed) { refine(refining, so_far, changed); };
     if (compares(job.session.channel) && channel_is_shown(job)) on_region = [](const RenderResult&, PixelRect) {};
     return job.results().picture(job.session, job.progress, on_region);

@@ -95,7 +95,7 @@ void run_rays(RaysLane& lane, const Session& session, Progress& progress) {
 
 void give_looks(Background::Objects& objects, const Session& session, const Shown& before) {
     const ChannelSource from{&before.result->value, nullptr, before.errors ? &before.errors->value : nullptr,
-                             before.lights->value.size()};
+                             rays_per_pixel(session, before.lights->value)};
     put_out_picture(objects, pixels_of(session, from), session, PictureState::complete, before.picture.get());
 }
 

@@ -12,7 +12,7 @@ Session view_key(const Session& session) {
     Session key = reference_part(session);
     key.reference = false;
     key.size = {};
-    key.environment = session.environment;
+    key.parameters.clear();
     return key;
 }
 

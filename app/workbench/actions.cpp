@@ -76,7 +76,7 @@ constexpr KeyPress control_shift(int key) { return {.key = key, .control = true,
 constexpr std::string_view ray = "The selected ray", image = "Image", views = "View", session = "Session",
                            window = "Window";
 
-constexpr std::array<Action, 36> table{{
+constexpr std::array<Action, 37> table{{
     {ActionId::step_forward, ray, "Step forward", plain(GLFW_KEY_RIGHT), plain(GLFW_KEY_SPACE), go_by<1>},
     {ActionId::step_back, ray, "Step back", plain(GLFW_KEY_LEFT), plain(GLFW_KEY_BACKSPACE), go_by<-1>},
     {ActionId::first_step, ray, "First step", plain(GLFW_KEY_HOME), {}, go_by<-(1 << 20)>},
@@ -116,6 +116,12 @@ constexpr std::array<Action, 36> table{{
      plain(GLFW_KEY_8),
      {},
      show_channel<Channel::compression>},
+    {ActionId::rays_traced,
+     image,
+     "Show how many rays are traced",
+     plain(GLFW_KEY_9),
+     {},
+     show_channel<Channel::rays_traced>},
     {ActionId::compare,
      image,
      "Measure the error against ray tracing",
@@ -195,7 +201,7 @@ constexpr std::array<Gesture, 12> gesture_table{{
     {image, "drag the lamp", "Move the selected light"},
     {views, "drag, Shift drag, wheel", "Turn, move, zoom the view inside"},
     {views, "double click on a title bar", "Maximise the pane"},
-    {window, "drop a .gltf or .glb file", "Open it"},
+    {window, "drop a .gltf, .glb or .hdr file", "Open it"},
 }};
 
 bool same_key(const KeyPress& wanted, const KeyPress& pressed) {

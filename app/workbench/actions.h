@@ -24,6 +24,7 @@ enum class ActionId {
     visibility_error,
     shadow_error,
     compression,
+    rays_traced,
     compare,
     lights_shown,
     exposure_up,

@@ -12,6 +12,7 @@
 #include "app/workbench/widgets.h"
 #include "techniques/base/error.h"
 #include "techniques/base/files.h"
+#include "techniques/scene/environment.h"
 
 namespace sightlines {
 namespace {
@@ -131,6 +132,8 @@ void use_file(Frame& frame, Dialog dialog, fs::path file) {
     try {
         if (dialog == Dialog::open_scene) {
             open_scene(frame, file.string());
+        } else if (dialog == Dialog::open_environment) {
+            open_environment(frame, file);
         } else if (dialog == Dialog::open_session) {
             frame.next = load_session(file);
         } else {
@@ -147,10 +150,11 @@ struct DialogRow {
     Dialog dialog;
     const char *title, *verb;
 };
-constexpr std::array<DialogRow, 4> dialogs{{{Dialog::keys, "Keys and mouse", ""},
+constexpr std::array<DialogRow, 5> dialogs{{{Dialog::keys, "Keys and mouse", ""},
                                             {Dialog::open_scene, "Open a scene", "Open"},
                                             {Dialog::open_session, "Open a session", "Open"},
-                                            {Dialog::save_session, "Save the session as", "Save"}}};
+                                            {Dialog::save_session, "Save the session as", "Save"},
+                                            {Dialog::open_environment, "Open an environment", "Open"}}};
 
 void draw_dialog(Frame& frame, const DialogRow& row) {
     constexpr std::array<std::string_view, 2> scenes{".gltf", ".glb"};
@@ -160,8 +164,10 @@ void draw_dialog(Frame& frame, const DialogRow& row) {
         if (ImGui::Button("Close", {80.0f * frame.scale, 0.0f})) ImGui::CloseCurrentPopup();
         return;
     }
-    const auto extensions = row.dialog == Dialog::open_scene ? std::span<const std::string_view>(scenes)
-                                                             : std::span<const std::string_view>(sessions);
+    constexpr std::array<std::string_view, 1> pictures{".hdr"};
+    const auto extensions = row.dialog == Dialog::open_scene         ? std::span<const std::string_view>(scenes)
+                            : row.dialog == Dialog::open_environment ? std::span<const std::string_view>(pictures)
+                                                                     : std::span<const std::string_view>(sessions);
     if (const auto file = draw_files(frame, extensions, row.verb)) use_file(frame, row.dialog, *file);
 }
 
@@ -170,6 +176,16 @@ void draw_dialog(Frame& frame, const DialogRow& row) {
 void open_scene(Frame& frame, const std::string& scene) {
     frame.ui.message.reset();
     try_scene(frame.background, scene);
+}
+
+void open_environment(Frame& frame, const fs::path& file) {
+    try {
+        read_environment(file);
+        frame.next.environment.file = file.string();
+        frame.ui.message.reset();
+    } catch (const std::runtime_error& error) {
+        frame.ui.message = Message{error.what(), true};
+    }
 }
 
 void draw_dialogs(Frame& frame) {

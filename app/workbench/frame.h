@@ -27,7 +27,7 @@ struct Message {
 };
 
 /// Which dialog is open, and what was typed into it so far.
-enum class Dialog { none, keys, open_scene, open_session, save_session };
+enum class Dialog { none, keys, open_scene, open_session, save_session, open_environment };
 
 /// The scene's time runs as the clock does, but only moves on when the picture of the last moment is there.
 struct Playing {

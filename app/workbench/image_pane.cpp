@@ -18,7 +18,7 @@ namespace {
 constexpr float handle_radius = 7.0f;  // of the light's handle
 constexpr float fly_share = 0.12f;     // of the scene's diagonal, a second
 
-constexpr std::array<ChannelRow, 8> channels{{
+constexpr std::array<ChannelRow, 9> channels{{
     {Channel::lit, "Lit", "Radiance by the technique"},
     {Channel::reference, "Ray traced", "Radiance by Embree: the same rays, answered exactly"},
     {Channel::shadow, "Shadow", "Share of a pixel's light rays that are blocked"},
@@ -27,7 +27,17 @@ constexpr std::array<ChannelRow, 8> channels{{
     {Channel::visibility_error, "Visibility error", "Share of a pixel's rays that are judged wrongly"},
     {Channel::shadow_error, "Shadow error", "Our shadow value less the true one"},
     {Channel::compression, "Compression", "Share of a pixel's rays whose answer compression changed"},
+    {Channel::rays_traced, "Rays traced", "How many of each pixel's rays Embree had to answer"},
 }};
+
+/// The row as it reads where pixels ask samples of the environment instead of lights.
+ChannelRow in_words_for(ChannelRow row, bool samples) {
+    if (!samples) return row;
+    if (row.channel == Channel::lights_seen)
+        return {row.channel, "Samples open", "How many samples see the environment"};
+    if (row.channel == Channel::rays) row.about = "How many samples are above each surface";
+    return row;
+}
 
 /// Where the picture lies in the body, and how positions map.
 struct Placed {
@@ -117,7 +127,7 @@ void draw_lights(const Frame& frame, const Placed& where, const Camera& camera) 
 /// The colour bar of a channel that is not a picture.
 void draw_legend(const Frame& frame, const Placed& where) {
     std::string low = "0", high;
-    const std::size_t lights = frame.shown.lights ? frame.shown.lights->value.size() : 0;
+    const std::size_t most = frame.shown.lights ? rays_per_pixel(frame.session, frame.shown.lights->value) : 0;
     switch (frame.session.channel) {
         case Channel::lit:
         case Channel::reference:
@@ -128,7 +138,10 @@ void draw_legend(const Frame& frame, const Placed& where) {
             break;
         case Channel::lights_seen:
         case Channel::rays:
-            high = count_text(lights) + " lights";
+            high = count_text(most) + (lit_by_environment(frame.session) ? " samples" : " lights");
+            break;
+        case Channel::rays_traced:
+            high = count_text(most) + " rays";
             break;
         case Channel::visibility_error:
             high = percent_text(100.0 * static_cast<double>(visibility_error_shown)) + " or more";
@@ -294,7 +307,8 @@ void draw_image(Frame& frame, const Area& body) {
     draw_picture(frame, where);
     const Camera camera = shown_camera(frame);
     std::optional<vec2> light;
-    if (frame.shown.ray && frame.shown.lights && frame.shown.ray->light < frame.shown.lights->value.size())
+    if (!lit_by_environment(frame.session) && frame.shown.ray && frame.shown.lights &&
+        frame.shown.ray->light < frame.shown.lights->value.size())
         if (const auto at =
                 projected(camera, where.picture, frame.shown.lights->value[frame.shown.ray->light].position))
             light = where.window_from_picture(*at);
@@ -306,7 +320,8 @@ void draw_image(Frame& frame, const Area& body) {
         draw_plate(frame, where.area.corner + edge, {0.0f, 0.0f}, state);
     if (!frame.session.selection.pixel)
         draw_plate(frame, where.area.corner + vec2(0.5f * where.area.size.x, where.area.size.y - edge), {0.5f, 1.0f},
-                   "Click a point to follow its light rays");
+                   lit_by_environment(frame.session) ? "Click a point to follow its samples"
+                                                     : "Click a point to follow its light rays");
     handle_mouse(frame, body, where, light);
 }
 
@@ -315,14 +330,17 @@ void draw_image_controls(Frame& frame, float right) {
     const float room = right - ImGui::GetCursorPosX();
     const float menu_width = 136.0f * frame.scale;
     if (room < menu_width) return;
-    if (menu_button(frame, "channel", std::string(chosen->title), menu_width)) {
-        for (std::size_t i = 0; i < channels.size(); ++i)
-            if (menu_item(frame, std::string(channels[i].title), std::string(channels[i].about), &channels[i] == chosen,
+    const bool samples = lit_by_environment(frame.session);
+    if (menu_button(frame, "channel", std::string(in_words_for(*chosen, samples).title), menu_width)) {
+        for (std::size_t i = 0; i < channels.size(); ++i) {
+            const ChannelRow row = in_words_for(channels[i], samples);
+            if (menu_item(frame, std::string(row.title), std::string(row.about), &channels[i] == chosen,
                           std::to_string(i + 1)))
-                frame.next.channel = channels[i].channel;
+                frame.next.channel = row.channel;
+        }
         ImGui::EndPopup();
     }
-    tooltip(frame, "What the picture shows", "1 to 7");
+    tooltip(frame, "What the picture shows", "1 to 9");
     ImGui::SameLine();
     const float slider_width = 112.0f * frame.scale;
     if (right - ImGui::GetCursorPosX() < slider_width) return;

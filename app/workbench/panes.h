@@ -51,5 +51,7 @@ std::span<const ChannelRow> channel_rows();
 Camera shown_camera(const Frame& frame);
 /// Ctrl+O and friends, and dropped files: asks for the scene; the session takes it once it could be read.
 void open_scene(Frame& frame, const std::string& scene);
+/// The session takes the picture as its surroundings where it can be read; else a message says why not.
+void open_environment(Frame& frame, const std::filesystem::path& file);
 
 }  // namespace sightlines

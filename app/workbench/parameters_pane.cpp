@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 #include "app/table.h"
@@ -70,7 +71,10 @@ double draw_number(Frame& frame, const Parameter& parameter, double value) {
     auto shown = static_cast<float>(value);
     const auto low = static_cast<float>(parameter.lowest), high = static_cast<float>(parameter.highest);
     ImGui::SetNextItemWidth(std::max(width - field - gap, 48.0f * frame.scale));
-    if (ImGui::SliderFloat("##slider", &shown, low, high, "", ImGuiSliderFlags_AlwaysClamp))
+    // From centimetres to a kilometre: equal steps would leave the small ones no room.
+    const bool by_ratio = parameter.lowest > 0.0 && parameter.highest / parameter.lowest >= 10000.0;
+    const ImGuiSliderFlags scale = by_ratio ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
+    if (ImGui::SliderFloat("##slider", &shown, low, high, "", ImGuiSliderFlags_AlwaysClamp | scale))
         value = static_cast<double>(shown);
     note_gesture(frame);
     if (wants_default()) value = parameter.default_value;
@@ -176,6 +180,43 @@ void draw_lights_section(Frame& frame) {
     if (!lights.moved.empty() && ImGui::Button("Moved lights back")) lights.moved.clear();
 }
 
+/// A slider of an angle with its name above.
+void draw_angle(Frame& frame, const char* name, const char* help, float& angle_deg, float lowest, float highest,
+                float default_deg) {
+    ImGui::PushID(name);
+    label_line(frame, name, angle_deg == default_deg ? "" : "default " + fixed_text(double{default_deg}, 0), help,
+               angle_deg != default_deg);
+    ImGui::SetNextItemWidth(-1.0f);
+    ImGui::SliderFloat("##angle", &angle_deg, lowest, highest, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
+    note_gesture(frame);
+    if (wants_default()) angle_deg = default_deg;
+    ImGui::PopID();
+}
+
+void draw_environment_section(Frame& frame) {
+    heading(frame, "Environment");
+    const EnvironmentChoice defaults;
+    EnvironmentChoice& choice = frame.next.environment;
+    const std::string name =
+        choice.file.empty() ? "made-up sky" : std::filesystem::path(choice.file).filename().string();
+    if (menu_button(frame, "environment", name, ImGui::GetContentRegionAvail().x)) {
+        if (menu_item(frame, "made-up sky", "A clear day, with a sun", choice.file.empty())) choice.file.clear();
+        if (menu_item(frame, "open an .hdr picture", "Equirectangular, Radiance format", false))
+            frame.ui.dialog = Dialog::open_environment;
+        ImGui::EndPopup();
+    }
+    tooltip(frame, "What surrounds the scene and lights it. An .hdr picture can be dropped on the window.");
+    if (choice.file.empty()) {
+        draw_angle(frame, "Sun elevation", "Above the horizon.", choice.sun_elevation_deg, -20.0f, 90.0f,
+                   defaults.sun_elevation_deg);
+        draw_angle(frame, "Sun azimuth", "From -Z towards +X.", choice.sun_azimuth_deg, -180.0f, 180.0f,
+                   defaults.sun_azimuth_deg);
+    }
+    draw_angle(frame, "Turn", "About the vertical.", choice.turn_deg, -180.0f, 180.0f, defaults.turn_deg);
+    draw_angle(frame, "Turn per second", "With the session's time, which runs in the bar above.", choice.turn_deg_per_s,
+               -90.0f, 90.0f, defaults.turn_deg_per_s);
+}
+
 void draw_camera_section(Frame& frame) {
     heading(frame, "Camera");
     if (!frame.shown.scene) return text_in(frame.fonts.small, frame.colours.muted, "once the scene is loaded");
@@ -234,7 +275,10 @@ void draw_picture_section(Frame& frame) {
 
 void draw_parameters(Frame& frame) {
     draw_technique(frame);
-    draw_lights_section(frame);
+    if (lit_by_environment(frame.session))
+        draw_environment_section(frame);
+    else
+        draw_lights_section(frame);
     draw_camera_section(frame);
     draw_picture_section(frame);
     ImGui::Dummy({0.0f, 8.0f * frame.scale});

@@ -68,7 +68,8 @@ void draw_heading(Frame& frame) {
     for (const ColumnRow& column : columns) {
         ImGui::TableNextColumn();
         const bool sorted = look.sorted_by == column.column;
-        std::string text = column.title;
+        const bool number = column.column == RayColumn::light && lit_by_environment(frame.session);
+        std::string text = number ? "Sample" : column.title;
         if (sorted) text += look.descending ? " ▼" : " ▲";
         const float width = ImGui::GetContentRegionAvail().x;
         const ImVec2 corner = ImGui::GetCursorPos();
@@ -78,7 +79,7 @@ void draw_heading(Frame& frame) {
             look.sorted_by = column.column;
         }
         const bool hovered = ImGui::IsItemHovered();
-        tooltip(frame, std::string(column.about) + ". Click to sort.");
+        tooltip(frame, std::string(number ? "The sample's number" : column.about) + ". Click to sort.");
         const std::string shown = elided(frame.fonts.small, text, width);
         ImGui::SetCursorPos({column.right ? corner.x + width - width_of(frame.fonts.small, shown) : corner.x,
                              corner.y + 2.0f * frame.scale});
@@ -152,7 +153,9 @@ void draw_table(Frame& frame, const PixelRays& rays, bool narrow) {
                            ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_PadOuterX))
         return;
     for (const ColumnRow& column : columns)
-        ImGui::TableSetupColumn(column.title, ImGuiTableColumnFlags_WidthStretch, column.weight);
+        ImGui::TableSetupColumn(
+            column.title, ImGuiTableColumnFlags_WidthStretch,
+            column.weight * (lit_by_environment(frame.session) && &column == columns.begin() ? 1.4f : 1.0f));
     ImGui::TableSetupScrollFreeze(0, 1);
     draw_heading(frame);
     const Workbench& look = frame.session.workbench;
@@ -176,7 +179,9 @@ void draw_rays(Frame& frame) {
     if (frame.shown.ray_failure) return empty_pane_text(frame, "No ray to show", ray_failure_text(frame));
     if (!frame.shown.rays)
         return empty_pane_text(frame, "The rays of a pixel appear here",
-                               "Click a point of the image: each light in front of it is one ray.");
+                               lit_by_environment(frame.session)
+                                   ? "Click a point of the image: each of its samples of the environment is one ray."
+                                   : "Click a point of the image: each light in front of it is one ray.");
     const bool narrow = ImGui::GetContentRegionAvail().x < narrow_width * frame.scale;
     const float padding = narrow ? 3.0f * frame.scale : ImGui::GetStyle().CellPadding.x;
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(padding, ImGui::GetStyle().CellPadding.y));

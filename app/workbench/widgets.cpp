@@ -218,9 +218,10 @@ bool menu_button(const Frame& frame, const char* id, const std::string& text, fl
     const float natural = width_of(ImGui::GetFont(), text) + arrow + 3.0f * padding;
     const ImVec2 size{width > 0.0f ? width : natural, ImGui::GetFrameHeight()};
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    ImGui::PushID(id);
-    if (ImGui::InvisibleButton("##button", size)) ImGui::OpenPopup("##menu");
-    const bool lit = ImGui::IsItemHovered() || ImGui::IsPopupOpen("##menu");
+    // No PushID: the popup, once open, has a stack of its own, from which there would be nothing to pop.
+    const std::string button = std::string("##") + id, menu = button + " menu";
+    if (ImGui::InvisibleButton(button.c_str(), size)) ImGui::OpenPopup(menu.c_str());
+    const bool lit = ImGui::IsItemHovered() || ImGui::IsPopupOpen(menu.c_str());
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y},
                        lit ? frame.colours.raised_hovered : frame.colours.raised, ImGui::GetStyle().FrameRounding);
@@ -229,9 +230,7 @@ bool menu_button(const Frame& frame, const char* id, const std::string& text, fl
     draw_icon(list, Icon::down, {corner.x + size.x - padding - 0.5f * arrow, corner.y + 0.5f * size.y}, arrow,
               frame.colours.muted);
     ImGui::SetNextWindowPos({corner.x, corner.y + size.y + 2.0f * frame.scale}, ImGuiCond_Appearing);
-    const bool open = ImGui::BeginPopup("##menu");
-    ImGui::PopID();
-    return open;
+    return ImGui::BeginPopup(menu.c_str());
 }
 
 bool menu_item(const Frame& frame, const std::string& title, const std::string& about, bool chosen,

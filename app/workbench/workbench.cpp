@@ -97,9 +97,20 @@ void fit_picture(Session& session, const Arrangement& areas, float scale) {
     session.size = size;
 }
 
-/// What was dropped on the window: scenes and sessions, the last of each counts.
+/// How long the session's time runs before it begins again: as the scene moves, or as its surroundings turn once.
+double running_time_s(const Session& session, double scene_duration_s) {
+    const auto turning = static_cast<double>(std::abs(session.environment.turn_deg_per_s));
+    if (scene_duration_s > 0.0 || !lit_by_environment(session) || turning == 0.0) return scene_duration_s;
+    return 360.0 / turning;
+}
+
+/// What was dropped on the window: scenes, sessions and environments, the last of each counts.
 void open_dropped(Frame& frame, const std::vector<std::filesystem::path>& files) {
     for (const auto& file : files) {
+        if (file.extension() == ".hdr") {
+            open_environment(frame, file);
+            continue;
+        }
         if (file.extension() != ".json") {
             open_scene(frame, file.string());
             continue;
@@ -229,7 +240,8 @@ double draw_frame(Bench& bench, const WindowEvents& events) {
     const ImageSize window_size = framebuffer_size(bench.window);
     fit_picture(session, arrange(session.workbench.layout, window_size, unit), unit);
     const Arrangement areas = arrange(session.workbench.layout, window_size, unit);
-    const Shown shown_now = shown(bench.background);
+    Shown shown_now = shown(bench.background);
+    shown_now.duration_s = running_time_s(session, shown_now.duration_s);
     const auto inside_now = shown(bench.inside);
     const std::string inside_failure = failure(bench.inside);
     announce(bench, shown_now);

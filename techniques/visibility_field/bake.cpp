@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "techniques/base/error.h"
 #include "techniques/base/huge_buffer.h"
@@ -133,17 +134,19 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 int casting_steps(int mask_size) { return largest_mask / mask_size; }
 
-VisibilityField bake(const Scene& scene, const EmbreeScene& embree, const BakeOptions& options, Progress& progress) {
+VisibilityField bake(const Scene& scene, const EmbreeScene& embree, const BakeOptions& options, Progress& progress,
+                     CellPoints* kept) {
     check_options(options);
     require_memory(scene.bounds, sampled_area(scene), scene.triangles.size(), options, available_memory_bytes());
     VisibilityField field;
     field.shape = make_shape(scene.bounds, options.cell_m, options.mask_size);
     const auto start = std::chrono::steady_clock::now();
-    const CellPoints points = place_points(scene, field.shape, options, progress);
+    CellPoints points = place_points(scene, field.shape, options, progress);
     number_cells(points, field);
     field.place_seconds = seconds_since(start);
     cast_all(embree, points, options, field, progress);
     field.cast_seconds = seconds_since(start) - field.place_seconds;
+    if (kept != nullptr) *kept = std::move(points);
     return field;
 }
 

@@ -35,8 +35,9 @@ int casting_steps(int mask_size);
 /// The field of a scene; `embree` was built from it. A pure function of scene and options, whatever the threads.
 /// Materials that are not double-sided are sampled on their front only. A scene without surface, or no samples, gives a
 /// field whose cells hold nothing, so that every ray is traced. InputError for options out of range, EnvironmentError
-/// where memory does not suffice; Cancelled.
-VisibilityField bake(const Scene& scene, const EmbreeScene& embree, const BakeOptions& options, Progress& progress);
+/// where memory does not suffice; Cancelled. `kept`: where not null, gets the samples that were cast from.
+VisibilityField bake(const Scene& scene, const EmbreeScene& embree, const BakeOptions& options, Progress& progress,
+                     CellPoints* kept = nullptr);
 
 /// What each point sample of a cell sees by itself, not dilated: for the lesson that steps through the merging (Figure
 /// 3).

@@ -41,12 +41,14 @@ struct Run {
     std::size_t first = 0, count = 0;
     bool subtract = false;  ///< what is blocked is taken off `known`, else what is open is added to it
     PixelMoments known{};   ///< of the directions that need no ray
+    std::uint32_t asked = 0, known_blocked = 0;  ///< samples above the surface; of these, blocked without a ray
 };
 
 /// Rays that wait for Embree.
 struct PackedRays {
     std::vector<float> origin[3], direction[3];
     std::vector<std::uint32_t> blocked;
+    std::vector<std::uint32_t> sample;  ///< the number of each ray's, where verdicts are kept
     std::vector<Run> runs;
     SortingRoom sorting;
     std::size_t count = 0;
@@ -56,6 +58,7 @@ struct PackedRays {
         for (auto& axis : origin) axis.resize(most);
         for (auto& axis : direction) axis.resize(most);
         blocked.resize(most / 32 + 2);
+        sample.resize(most);
     }
 };
 
@@ -155,15 +158,23 @@ HWY_INLINE Mask in_pattern(const SamplePattern& pattern, std::size_t start) {
 
 /// What the pixel's samples come to before any is traced.
 struct Sorted {
-    std::size_t rays = 0, below = 0;
+    std::size_t rays = 0, below = 0, known_blocked = 0;
     PixelMoments known{};
 };
+
+/// Keeps the answers that need no ray, and which samples wait for one, of the vector of samples that starts at `start`.
+void keep_verdicts(std::uint32_t* verdicts, std::size_t start, std::uint32_t blocked, std::uint32_t traced,
+                   std::uint32_t* waiting) {
+    verdicts[start / 32] |= blocked << (start % 32);
+    for (; traced != 0; traced &= traced - 1)
+        *waiting++ = static_cast<std::uint32_t>(start) + static_cast<std::uint32_t>(std::countr_zero(traced));
+}
 
 /// Makes the pixel's samples, packs the directions of those that must be traced from `to` on, and sums up those that
 /// need no ray: added where open, or, where the occluded region is traced, all less those that are blocked.
 template <Known known>
 HWY_INLINE Sorted sort_samples(const FieldShape& shape, const EnvironmentRequest& request, const Pixel& pixel,
-                               bool subtract, std::size_t to, PackedRays& packed) {
+                               bool subtract, std::size_t to, PackedRays& packed, std::uint32_t* verdicts) {
     const SamplePattern& pattern = *request.pattern;
     const std::size_t size = pattern.x.size();
     const bool sum_all = subtract && request.unshadowed == Unshadowed::sampled;
@@ -177,6 +188,9 @@ HWY_INLINE Sorted sort_samples(const FieldShape& shape, const EnvironmentRequest
         const wide::Decision decision = decide<known>(shape, pixel, direction, above);
         const std::uint32_t traced = wide::bits_of(decision.trace);
         const std::uint32_t below = wide::bits_of(inside && !above);
+        if (verdicts != nullptr)
+            keep_verdicts(verdicts, start, wide::bits_of(decision.blocked && above), traced,
+                          &packed.sample[to + sorted.rays]);
         if (traced != 0) {
             wide::store_compressed(direction.x, decision.trace, &packed.direction[0][to + sorted.rays]);
             wide::store_compressed(direction.y, decision.trace, &packed.direction[1][to + sorted.rays]);
@@ -184,7 +198,10 @@ HWY_INLINE Sorted sort_samples(const FieldShape& shape, const EnvironmentRequest
             sorted.rays += static_cast<std::size_t>(std::popcount(traced));
         }
         sorted.below += static_cast<std::size_t>(std::popcount(below));
-        if constexpr (known == Known::both_regions) add(moments, direction, decision.open);
+        if constexpr (known == Known::both_regions) {
+            add(moments, direction, decision.open);
+            sorted.known_blocked += static_cast<std::size_t>(std::popcount(wide::bits_of(decision.blocked && above)));
+        }
         if (known == Known::one_region && subtract) {
             // With the samples' own mean: all but those below. With the analytic one: less those below.
             if (sum_all)
@@ -194,16 +211,21 @@ HWY_INLINE Sorted sort_samples(const FieldShape& shape, const EnvironmentRequest
         }
     }
     if (known == Known::both_regions || subtract) sorted.known = summed(moments);
+    if (known == Known::one_region && pixel.label == 1)  // all that are not traced
+        sorted.known_blocked = static_cast<std::size_t>(pattern.samples) - sorted.below - sorted.rays;
     return sorted;
 }
 
 Sorted sort_samples(const TileWork& work, const Pixel& pixel, bool subtract, std::size_t to, PackedRays& packed) {
     const EnvironmentRequest& request = work.request;
-    if (!pixel.has_cell) return sort_samples<Known::nothing>({}, request, pixel, false, to, packed);
+    Verdicts& kept = work.result.verdicts;
+    std::uint32_t* const verdicts =
+        kept.words.empty() ? nullptr : &kept.words[static_cast<std::size_t>(pixel.index) * kept.words_per_pixel];
+    if (!pixel.has_cell) return sort_samples<Known::nothing>({}, request, pixel, false, to, packed, verdicts);
     const FieldShape shape = work.field->shape;
     if (request.culling == Culling::both)
-        return sort_samples<Known::both_regions>(shape, request, pixel, false, to, packed);
-    return sort_samples<Known::one_region>(shape, request, pixel, subtract, to, packed);
+        return sort_samples<Known::both_regions>(shape, request, pixel, false, to, packed, verdicts);
+    return sort_samples<Known::one_region>(shape, request, pixel, subtract, to, packed, verdicts);
 }
 
 /// The polynomials of the run's rays: of the open ones, or of the blocked ones where they are subtracted, then
@@ -232,6 +254,15 @@ vec3 irradiance_of(const HarmonicLight& light, const PixelMoments& moments, int 
     return sum * (std::numbers::pi_v<float> / static_cast<float>(samples));
 }
 
+/// Keeps the answers of the run's rays.
+void keep_answers(const PackedRays& packed, const Run& run, Verdicts& verdicts) {
+    std::uint32_t* const words = &verdicts.words[static_cast<std::size_t>(run.pixel) * verdicts.words_per_pixel];
+    for (std::size_t ray = run.first; ray < run.first + run.count; ++ray) {
+        const std::uint32_t blocked = packed.blocked[ray / 32] >> (ray % 32) & 1u;
+        words[packed.sample[ray] / 32] |= blocked << (packed.sample[ray] % 32);
+    }
+}
+
 /// Asks Embree for all packed rays and shades their pixels.
 void answer(const TileWork& work, PackedRays& packed, SampleCounts& counts) {
     const PackedOpenRays rays{{packed.origin[0].data(), packed.origin[1].data(), packed.origin[2].data()},
@@ -253,6 +284,10 @@ void answer(const TileWork& work, PackedRays& packed, SampleCounts& counts) {
         work.result.radiance.pixels[run.pixel] =
             surfaces.emission[run.pixel] + surfaces.albedo[run.pixel] * std::numbers::inv_pi_v<float> * irradiance;
         work.result.rays_traced.pixels[run.pixel] = static_cast<std::uint32_t>(run.count);
+        work.result.rays_asked.pixels[run.pixel] = run.asked;
+        work.result.shadow.pixels[run.pixel] =
+            static_cast<float>(run.known_blocked + blocked) / static_cast<float>(std::max(run.asked, 1u));
+        if (!work.result.verdicts.words.empty()) keep_answers(packed, run, work.result.verdicts);
         counts.traced_blocked += blocked;
     }
     packed.runs.clear();
@@ -281,7 +316,10 @@ void ask_pixel(const TileWork& work, int x, int y, PackedRays& packed, SampleCou
     if (!pixel.has_cell) counts.outside += sorted.rays;
     if (work.embree == nullptr) return;
     set_origin(packed, packed.count, sorted.rays, lifted_off(*work.embree, position, pixel.normal));
-    packed.runs.push_back({pixel.index, packed.count, sorted.rays, subtract, sorted.known});
+    const auto asked =
+        static_cast<std::uint32_t>(static_cast<std::size_t>(work.request.pattern->samples) - sorted.below);
+    packed.runs.push_back({pixel.index, packed.count, sorted.rays, subtract, sorted.known, asked,
+                           static_cast<std::uint32_t>(sorted.known_blocked)});
     packed.count += sorted.rays;
     if (packed.count >= batch_rays) answer(work, packed, counts);
 }
@@ -326,6 +364,12 @@ void ask_picture(const TileWork& work, Progress& progress) {
         {
             const std::lock_guard lock(sum_mutex);
             add(work.result.counts, counts);
+            if (work.request.on_region) {
+                const int left = static_cast<int>(tile % columns) * tile_side;
+                const int top = static_cast<int>(tile / columns) * tile_side;
+                work.request.on_region(work.result, {left, top, std::min(tile_side, size.width - left),
+                                                     std::min(tile_side, size.height - top)});
+            }
         }
         progress.advance();
     });
@@ -341,6 +385,12 @@ EnvironmentResult render_environment(const VisibilityField* field, const EmbreeS
     result.irradiance = ImageRgb(size);
     result.radiance = ImageRgb(size);
     result.rays_traced = Image<std::uint32_t>(size);
+    result.rays_asked = Image<std::uint32_t>(size);
+    result.shadow = ImageScalar(size);
+    if (request.keep_verdicts) {
+        result.verdicts.words_per_pixel = (static_cast<std::uint32_t>(request.pattern->samples) + 31u) / 32u;
+        result.verdicts.words.resize(size.pixels() * result.verdicts.words_per_pixel);
+    }
     ask_picture({field, &embree, request, harmonic_light(request.light), result}, progress);
     result.device =
         "CPU, " + std::to_string(thread_count(request.threads)) + " threads, " + std::to_string(lanes) + " wide";

@@ -77,11 +77,14 @@ void require_memory(const Box3& bounds, double area_m2, std::size_t triangles, c
     if (fits(options)) return;
     BakeOptions larger = options;
     for (int doubling = 0; doubling < 60 && !fits(larger); ++doubling) larger.cell_m *= 2.0f;
+    const bool numbered = bake_bytes(bounds, area_m2, triangles, options) <= static_cast<double>(available_bytes);
     throw EnvironmentError(
         "memory",
-        "a visibility field with cells of " + metres_text(options.cell_m) + " takes up to " +
-            memory_text(bake_bytes(bounds, area_m2, triangles, options)) + ", and " +
-            memory_text(static_cast<double>(available_bytes)) + " are free",
+        numbered ? "a visibility field with cells of " + metres_text(options.cell_m) +
+                       " has more of them than can be numbered"
+                 : "a visibility field with cells of " + metres_text(options.cell_m) + " takes up to " +
+                       memory_text(bake_bytes(bounds, area_m2, triangles, options)) + ", and " +
+                       memory_text(static_cast<double>(available_bytes)) + " are free",
         fits(larger) ? "cells of " + metres_text(larger.cell_m) + " would fit" : "choose fewer point samples");
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "techniques/rays/embree_scene.h"
 #include "techniques/scene/harmonics.h"
 #include "techniques/scene/surface_buffer.h"
+#include "techniques/technique.h"
 #include "techniques/visibility_field/dense_field.h"
 #include "techniques/visibility_field/field.h"
 #include "techniques/visibility_field/sample_pattern.h"
@@ -33,6 +35,8 @@ enum class Unshadowed { analytic, sampled };
 /// every ray alike.
 enum class RayOrder { pixel, direction };
 
+struct EnvironmentResult;
+
 struct EnvironmentRequest {
     const SurfaceBuffer* surfaces = nullptr;
     const SamplePattern* pattern = nullptr;
@@ -44,6 +48,9 @@ struct EnvironmentRequest {
     RayOrder order = RayOrder::direction;
     int threads = 0;             ///< 0: all. Never changes the result
     bool reverse_tiles = false;  ///< work through the tiles backwards. Never changes the result
+    bool keep_verdicts = false;  ///< also return every sample's answer
+    /// Called with each finished part of the picture, from worker threads, one call at a time. May be empty.
+    std::function<void(const EnvironmentResult& so_far, PixelRect changed)> on_region = {};
 };
 
 /// What became of all samples. A sample that points below its surface counts as blocked without a ray.
@@ -63,6 +70,9 @@ struct EnvironmentResult {
     ImageRgb irradiance;               ///< W/m^2
     ImageRgb radiance;                 ///< emission + albedo / pi * irradiance
     Image<std::uint32_t> rays_traced;  ///< of each pixel
+    Image<std::uint32_t> rays_asked;   ///< samples of each pixel that are above its surface
+    ImageScalar shadow;                ///< share of these that count as blocked
+    Verdicts verdicts;  ///< bit k: sample k is above the surface and counts as blocked; empty unless asked for
     SampleCounts counts;
     double seconds = 0.0;
     std::string device;

@@ -30,6 +30,20 @@ struct SampleTrace {
     }
 };
 
+/// A sample by itself.
+struct SampleRay {
+    vec3 position{0.0f}, normal{0.0f};  ///< of the surface, m and unit, as in SurfaceBuffer
+    vec3 direction{0.0f};               ///< unit
+    vec3 share{0.0f};                   ///< what it adds to the irradiance where nothing is in the way, W/m^2
+};
+
+/// The ray of sample `sample` of a pixel that shows a surface.
+SampleRay sample_ray(const EnvironmentRequest& request, std::size_t pixel, int sample);
+
+/// A sample as the renderer treats it, by the recording kernel.
+SampleTrace trace_sample(const VisibilityField& field, const EmbreeScene& embree, Culling culling,
+                         const SampleRay& ray);
+
 /// Sample `sample` (of the pattern) of the pixel (x, y), which must show a surface, by the recording kernel.
 SampleTrace trace_sample(const VisibilityField& field, const EmbreeScene& embree, const EnvironmentRequest& request,
                          int x, int y, int sample);
@@ -45,6 +59,10 @@ struct NearestSamples {
     std::optional<SurfacePoint> should_have_seen;
     float should_have_seen_m = 0.0f;
 };
+
+/// `points`: all of the field that it was traced in.
+NearestSamples nearest_samples(const CellPoints& points, const FieldShape& shape, const EmbreeScene& embree,
+                               const SampleTrace& traced);
 
 /// Places the point samples once more, with the options that the field was baked by.
 NearestSamples nearest_samples(const Scene& scene, const EmbreeScene& embree, const BakeOptions& options,

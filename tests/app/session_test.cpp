@@ -88,6 +88,8 @@ Session random_session(std::uint32_t number) {
     for (int moved = draw.whole(0, 3); moved > 0; --moved)
         session.lights.moved.push_back({static_cast<std::uint32_t>(draw.whole(0, 65535)), draw.point()});
     session.lights.virtual_lights = static_cast<std::uint32_t>(draw.whole(0, 65536));
+    session.environment = {draw.coin() ? "" : "folder/sky.hdr", draw.between(-90, 90), draw.between(-360, 360),
+                           draw.between(-360, 360), draw.between(-3600, 3600)};
     for (const Technique& technique : techniques()) {
         ParameterValues values = random_parameters(technique, draw);
         if (!values.empty()) session.parameters[std::string(technique.name)] = std::move(values);
@@ -101,7 +103,7 @@ Session random_session(std::uint32_t number) {
     session.selection.step = static_cast<std::uint32_t>(draw.whole(0, 40));
     for (int view = draw.whole(0, 3); view > 0; --view) session.views.push_back(random_view(draw));
     session.display = {draw.between(-8, 8), draw.coin()};
-    session.channel = static_cast<Channel>(draw.whole(0, 6));
+    session.channel = static_cast<Channel>(draw.whole(0, 8));
     session.workbench = random_workbench(draw);
     return session;
 }
@@ -126,6 +128,24 @@ TEST(Session, ComesBackTheSameFromItsOwnText) {
         const std::string text = json_from_session(session).dump();
         ASSERT_EQ(session_from_json(Json::parse(text), "here"), session) << text;
     }
+}
+
+TEST(Session, TakesAnEnvironmentThatIsItsFilesNameAlone) {
+    EXPECT_EQ(session_from_json({{"environment", "sky.hdr"}}, "here").environment.file, "sky.hdr");
+    EXPECT_EQ(session_from_json({{"environment", ""}}, "here"), Session{});
+    EXPECT_EQ(patched(Session{}, {{"environment", "sky.hdr"}}, "here").environment.file, "sky.hdr");
+}
+
+TEST(Session, RefusesAnEnvironmentThatCannotBe) {
+    const auto refused = [](const Json& environment, const std::string& place) {
+        const std::string message = refusal({{"environment", environment}});
+        EXPECT_NE(message.find(place), std::string::npos) << message;
+    };
+    refused({{"sun_elevation_deg", 91}}, "/environment/sun_elevation_deg");
+    refused({{"turn_deg", "far"}}, "/environment/turn_deg");
+    refused({{"suns", 2}}, "/environment/suns");
+    refused({{"file", 5}}, "/environment/file");
+    refused(7, "/environment");
 }
 
 TEST(Session, RefusesAWorkbenchThatCannotBeShown) {
@@ -224,6 +244,7 @@ TEST(SessionFile, ComesBackTheSame) {
     const fs::path file = fresh_folder() / "session.json";
     Session session = random_session(11);
     session.scene = "trees";
+    session.environment.file.clear();
     save_session(file, session);
     EXPECT_EQ(load_session(file), session);
 }
@@ -232,8 +253,12 @@ TEST(SessionFile, FindsItsSceneBesideItWhereverTheProgramRuns) {
     const fs::path folder = fresh_folder();
     Session session;
     session.scene = (folder / "models" / "house.glb").string();
+    session.environment.file = (folder / "skies" / "noon.hdr").string();
     save_session(folder / "session.json", session);
     EXPECT_EQ(Json::parse(text_of(folder / "session.json"))["scene"], "models/house.glb");
+    EXPECT_EQ(Json::parse(text_of(folder / "session.json"))["environment"]["file"], "skies/noon.hdr");
+    EXPECT_EQ(fs::weakly_canonical(load_session(folder / "session.json").environment.file),
+              fs::weakly_canonical(session.environment.file));
     EXPECT_EQ(fs::weakly_canonical(load_session(folder / "session.json").scene), fs::weakly_canonical(session.scene));
 }
 
@@ -283,6 +308,38 @@ TEST(SessionPart, ForgetsWhatAStageDoesNotDependOn) {
     later.time_s += 1.0;
     EXPECT_NE(structure_part(later), structure_part(session));
     EXPECT_EQ(model_part(later), model_part(session));
+}
+
+TEST(SessionPart, DependsOnTheEnvironmentOnlyWhereThatLights) {
+    Session session;
+    Session turned = session;
+    turned.environment.turn_deg = 20.0f;
+    EXPECT_EQ(picture_part(turned), picture_part(session));
+    EXPECT_EQ(reference_part(turned), reference_part(session));
+    session.technique = turned.technique = "visibility_field";
+    EXPECT_NE(picture_part(turned), picture_part(session));
+    EXPECT_NE(reference_part(turned), reference_part(session));
+    EXPECT_EQ(structure_part(turned), structure_part(session));
+    Session lamps = session;
+    lamps.lights.count = 77;
+    EXPECT_EQ(picture_part(lamps), picture_part(session));
+    EXPECT_EQ(lights_part(lamps), lights_part(session));
+}
+
+TEST(SessionPart, OfTheEnvironmentTurnsWithTimeAndForgetsTheSunOfAFile) {
+    Session by_hand, by_time;
+    by_hand.environment.turn_deg = 50.0f;
+    by_time.environment.turn_deg = 10.0f;
+    by_time.environment.turn_deg_per_s = 20.0f;
+    by_time.time_s = 2.0;
+    EXPECT_EQ(environment_part(by_time), environment_part(by_hand));
+    by_time.time_s = 3.0;
+    EXPECT_NE(environment_part(by_time), environment_part(by_hand));
+    Session low = by_hand;
+    low.environment.sun_elevation_deg = 5.0f;
+    EXPECT_NE(environment_part(low), environment_part(by_hand));
+    low.environment.file = by_hand.environment.file = "sky.hdr";
+    EXPECT_EQ(environment_part(low), environment_part(by_hand));
 }
 
 TEST(SessionPart, OfTheStructureHoldsOnlyParametersThatChangeIt) {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "techniques/base/random.h"
+#include "techniques/scene/environment_light.h"
 
 namespace sightlines {
 namespace {
@@ -97,6 +98,20 @@ TEST(Harmonics, TurnWithTheirRotation) {
 TEST(Harmonics, ATurnAboutUpGoesFromMinusZTowardsX) {
     EXPECT_LT(glm::distance(turn_about_up(90.0f) * vec3(0.0f, 0.0f, -1.0f), vec3(1.0f, 0.0f, 0.0f)), 1e-6f);
     EXPECT_LT(glm::distance(turn_about_up(30.0f) * vec3(0.0f, 1.0f, 0.0f), vec3(0.0f, 1.0f, 0.0f)), 1e-6f);
+}
+
+TEST(EnvironmentLight, TurnsItsMapAndItsHarmonicsTogether) {
+    const EnvironmentLight light =
+        make_environment_light(environment_of([](vec3 direction) { return 1.0f + std::max(0.0f, -direction.z); }));
+    const EnvironmentLight quarter = turned(turned(light, 40.0f), 90.0f);
+    // What stood at -Z stands at +X, however it was turned before.
+    EXPECT_NEAR(radiance_from(quarter, {1, 0, 0}).x, 2.0f, 0.01f);
+    EXPECT_NEAR(radiance_from(quarter, {0, 0, -1}).x, 1.0f, 0.03f);
+    for (std::uint32_t k = 0; k < 50; ++k) {
+        const vec3 now = some_direction(k), before(now.z, now.y, -now.x);
+        EXPECT_NEAR(radiance(quarter.harmonics, now).x, radiance(light.harmonics, before).x, 1e-4f);
+        EXPECT_NEAR(radiance_from(quarter, now).x, radiance_from(light, before).x, 1e-3f);
+    }
 }
 
 TEST(Harmonics, OfTheSharedEnvironmentsAreThoseOfTheirLight) {

@@ -90,6 +90,18 @@ TEST(Window, TakesAUserFromAPixelThroughItsStepsAndBack) {
     EXPECT_EQ(saved_session(window).selection.step, 2u);
 }
 
+TEST(Window, ChoosesFromAMenu) {
+    const auto folder = fresh_folder();
+    const Xvfb display(screen);
+    DrivenWindow window(folder, small_session());
+    EXPECT_EQ(difference_from_golden(display, "started"), "");
+    const vec2 corner = body_of(PaneContent::image).corner;
+    click(corner + vec2(130.0f, -16.0f));  // what the picture shows
+    drive("sleep 0.5");
+    click(corner + vec2(130.0f, 126.0f));  // the third of its rows
+    EXPECT_TRUE(session_becomes(window, [](const Session& session) { return session.channel == Channel::shadow; }));
+}
+
 TEST(Window, ComesBackAsItWasAfterAKill) {
     const auto folder = fresh_folder();
     const Xvfb display(screen);

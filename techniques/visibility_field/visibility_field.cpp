@@ -1,0 +1,318 @@
+#include "techniques/visibility_field/visibility_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <chrono>
+#include <numeric>
+
+#include "techniques/base/error.h"
+#include "techniques/base/huge_buffer.h"
+#include "techniques/base/parallel.h"
+#include "techniques/visibility_field/memory_need.h"
+#include "techniques/visibility_field/surface_cells.h"
+
+namespace sightlines::visibility_field {
+namespace {
+
+constexpr std::array<std::string_view, 2> placements{"random", "stratified"};
+constexpr std::array<std::string_view, 2> label_rules{"texels", "smaller"};
+constexpr std::array<std::string_view, 2> layouts{"packed", "dense"};
+constexpr std::array<std::string_view, 3> cullings{"label", "visible", "both"};
+constexpr std::array<std::string_view, 2> unshadowed_ways{"analytic", "sampled"};
+constexpr std::array<std::string_view, 2> ray_orders{"pixel", "direction"};
+
+constexpr std::array<Parameter, 12> parameters{{
+    {"cell_size", "Cell size", "m", ParameterKind::real, ParameterAffects::structure, 0.01, 1000, 0.5, 0.5,
+     "Side of a cell of the grid."},
+    {"mask_size", "Mask size", "texels", ParameterKind::integer, ParameterAffects::structure, 8, 64, 18, 18,
+     "Along each side of a cell's two octahedral masks."},
+    {"points", "Point samples", "", ParameterKind::integer, ParameterAffects::structure, 1000, 10000000, 1000000,
+     std::nullopt, "Points of the surface from which rays are cast into the masks."},
+    {"rays_per_point", "Rays per point", "", ParameterKind::integer, ParameterAffects::structure, 1, 4096, 128,
+     std::nullopt, "Cast from each point sample, over the hemisphere."},
+    {"dilation", "Dilation", "texels", ParameterKind::real, ParameterAffects::structure, 0, 2, 0.33, 1,
+     "By how much both masks grow, so that directions between the rays count too; in steps of a third of a texel for "
+     "masks of 18."},
+    {"placement", "Placement", "", ParameterKind::choice, ParameterAffects::structure, 0, 1, 1, 0,
+     "Where point samples lie: at random by area, as in the paper, or spread so that every cell and triangle has its "
+     "share.",
+     placements},
+    {"label_rule", "Label rule", "", ParameterKind::choice, ParameterAffects::structure, 0, 1, 1, 0,
+     "A cell is called occluded where more than half of its texels are (equation 8), or where the visible region is "
+     "the smaller one.",
+     label_rules},
+    {"layout", "Memory layout", "", ParameterKind::choice, ParameterAffects::structure, 0, 1, 0, 1,
+     "Two bits a texel for the cells that hold points, or the paper's: a byte a texel for all cells. The answers are "
+     "the same.",
+     layouts},
+    {"samples", "Samples per pixel", "", ParameterKind::integer, ParameterAffects::picture, 16, 256, 64, std::nullopt,
+     "Directions that each pixel asks, cosine-weighted about its normal."},
+    {"culling", "Rays traced", "", ParameterKind::choice, ParameterAffects::picture, 0, 2, 0, 0,
+     "Those in the region that the cell's label names, those in the visible region (Figure 9), or those on which the "
+     "cell's points disagree.",
+     cullings},
+    {"unshadowed", "Unshadowed light", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 1, 0,
+     "What blocked light is taken off where the occluded region is traced: the exact irradiance, as in the paper, or "
+     "that of the same samples.",
+     unshadowed_ways},
+    {"ray_order", "Order of rays", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 1, 0,
+     "Embree gets the rays pixel by pixel, or those of a few hundred pixels sorted by direction.", ray_orders},
+}};
+
+constexpr std::array<std::string_view, 5> stages{"point samples", "masks", "grid of cells", "samples",
+                                                 "rays that are left"};
+
+using BuiltFieldPointer = std::shared_ptr<const BuiltField>;
+using PatternPointer = std::shared_ptr<const SamplePattern>;
+
+double value_of(const ParameterValues& chosen, std::string_view name) {
+    return parameter_value(parameters, chosen, name);
+}
+
+template <class Choice>
+Choice choice_of(const ParameterValues& chosen, std::string_view name) {
+    return static_cast<Choice>(static_cast<int>(value_of(chosen, name)));
+}
+
+void refuse_vulkan(Backend backend) {
+    if (backend == Backend::vulkan)
+        throw InputError("backend", "", "visibility_field does not run on Vulkan", "choose cpu");
+}
+
+std::string cpu_device(int threads) {
+    return "CPU, " + std::to_string(thread_count(threads)) + " threads, Embree, packets of 16";
+}
+
+BakeOptions bake_options(const BuildRequest& request) {
+    const ParameterValues& chosen = request.parameters;
+    BakeOptions options;
+    options.cell_m = static_cast<float>(value_of(chosen, "cell_size"));
+    options.mask_size = static_cast<int>(value_of(chosen, "mask_size"));
+    options.points = static_cast<std::uint32_t>(value_of(chosen, "points"));
+    options.rays = static_cast<int>(value_of(chosen, "rays_per_point"));
+    options.dilation = static_cast<float>(value_of(chosen, "dilation"));
+    options.placement = choice_of<Placement>(chosen, "placement");
+    options.label = choice_of<LabelRule>(chosen, "label_rule");
+    options.threads = request.threads;
+    return options;
+}
+
+Structure build(const BuildRequest& request, Progress& progress) {
+    refuse_vulkan(request.backend);
+    check_parameters(parameters, request.parameters);
+    const auto start = std::chrono::steady_clock::now();
+    const Scene& scene = *request.scene;
+    auto built = std::make_shared<BuiltField>();
+    built->options = bake_options(request);
+    require_memory(scene.bounds, sampled_area(scene), scene.triangles.size(), built->options, available_memory_bytes());
+    built->embree = build_embree_scene(scene, EmbreeUse::benchmark, request.threads, progress);
+    built->field = bake(scene, *built->embree, built->options, progress, &built->points);
+    if (value_of(request.parameters, "layout") != 0.0) built->dense = to_dense(built->field);
+    built->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return BuiltFieldPointer(std::move(built));
+}
+
+PatternPointer new_pattern(const ParameterValues& chosen, std::uint64_t seed) {
+    return std::make_shared<const SamplePattern>(make_pattern(static_cast<int>(value_of(chosen, "samples")), seed));
+}
+
+PatternPointer pattern_of(const RenderRequest& request) {
+    return request.samples != nullptr ? std::any_cast<PatternPointer>(*request.samples)
+                                      : new_pattern(request.parameters, request.seed);
+}
+
+EnvironmentRequest environment_request(const RenderRequest& request, const SamplePattern& pattern) {
+    assert(request.environment != nullptr);
+    EnvironmentRequest asked;
+    asked.surfaces = request.surfaces;
+    asked.pattern = &pattern;
+    asked.light = request.environment->harmonics;
+    asked.culling = culling_of(request.parameters);
+    asked.unshadowed = choice_of<Unshadowed>(request.parameters, "unshadowed");
+    asked.order = choice_of<RayOrder>(request.parameters, "ray_order");
+    asked.threads = request.threads;
+    asked.reverse_tiles = request.reverse_tiles;
+    asked.keep_verdicts = request.keep_verdicts;
+    return asked;
+}
+
+/// A picture that shows the surroundings where it shows no surface.
+RenderResult background(const RenderRequest& request) {
+    const SurfaceBuffer& surfaces = *request.surfaces;
+    const ImageSize size = surfaces.size;
+    RenderResult result;
+    result.radiance = ImageRgb(size);
+    result.shadow = ImageScalar(size);
+    result.rays_asked = Image<std::uint32_t>(size);
+    result.traced = Image<std::uint32_t>(size);
+    parallel_for(size.height, request.threads, [&](std::int64_t row) {
+        const int y = static_cast<int>(row);
+        for (int x = 0; x < size.width; ++x) {
+            const auto pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x);
+            if (surfaces.triangle[pixel] != no_triangle) continue;
+            const Segment ray = camera_ray(surfaces.camera, size, vec2(x, y) + 0.5f, 1.0f);
+            result.radiance.pixels[pixel] =
+                radiance_from(*request.environment, glm::normalize(ray.target - ray.origin));
+        }
+    });
+    return result;
+}
+
+/// Takes the surfaces of a part over. Harmonics ring: where their sum is negative there is no light.
+void take_over(const EnvironmentResult& from, const SurfaceBuffer& surfaces, PixelRect rect, RenderResult& result) {
+    for (int y = rect.y; y < rect.y + rect.height; ++y) {
+        for (int x = rect.x; x < rect.x + rect.width; ++x) {
+            const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(surfaces.size.width) +
+                               static_cast<std::size_t>(x);
+            if (surfaces.triangle[pixel] == no_triangle) continue;
+            result.radiance.pixels[pixel] = glm::max(from.radiance.pixels[pixel], vec3(0.0f));
+            result.shadow.pixels[pixel] = from.shadow.pixels[pixel];
+            result.rays_asked.pixels[pixel] = from.rays_asked.pixels[pixel];
+            result.traced.pixels[pixel] = from.rays_traced.pixels[pixel];
+        }
+    }
+}
+
+RenderResult render_samples(const VisibilityField* field, const DenseField* dense, const EmbreeScene& embree,
+                            const RenderRequest& request, Progress& progress) {
+    const PatternPointer pattern = pattern_of(request);
+    const SurfaceBuffer& surfaces = *request.surfaces;
+    RenderResult result = background(request);
+    EnvironmentRequest asked = environment_request(request, *pattern);
+    asked.dense = dense;
+    if (request.on_region)
+        asked.on_region = [&](const EnvironmentResult& so_far, PixelRect changed) {
+            take_over(so_far, surfaces, changed, result);
+            request.on_region(result, changed);
+        };
+    EnvironmentResult made = render_environment(field, embree, asked, progress);
+    take_over(made, surfaces, {0, 0, surfaces.size.width, surfaces.size.height}, result);
+    result.verdicts = std::move(made.verdicts);
+    result.rays = made.counts.samples - made.counts.below;
+    result.rays_traced = made.counts.traced;
+    result.seconds = made.seconds;
+    result.device = cpu_device(request.threads);
+    return result;
+}
+
+RenderResult render(const Structure& structure, const RenderRequest& request, Progress& progress) {
+    refuse_vulkan(request.backend);
+    const BuiltField& built = built_field(structure);
+    return render_samples(&built.field, built.dense ? &*built.dense : nullptr, *built.embree, request, progress);
+}
+
+RenderResult reference(const EmbreeScene& embree, const RenderRequest& request, Progress& progress) {
+    return render_samples(nullptr, nullptr, embree, request, progress);
+}
+
+std::vector<Light> lights(const RenderRequest& request, std::size_t pixel) {
+    const PatternPointer pattern = pattern_of(request);
+    const EnvironmentRequest asked = environment_request(request, *pattern);
+    std::vector<Light> all(static_cast<std::size_t>(pattern->samples));
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const SampleRay ray = sample_ray(asked, pixel, static_cast<int>(k));
+        all[k].kind = LightKind::directional;
+        all[k].direction = -ray.direction;
+        all[k].intensity = ray.share;
+    }
+    return all;
+}
+
+std::string metres_text(float metres) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g m", static_cast<double>(metres));
+    return text;
+}
+
+/// For a ray that was discarded wrongly: which sample should have kept it.
+void add_nearest(const BuiltField& built, const SampleTrace& traced, TraceStep& step) {
+    const NearestSamples nearest = nearest_samples(built.points, built.field.shape, *built.embree, traced);
+    const double infinite = std::numeric_limits<double>::infinity();
+    step.values.push_back({"samples in the cell", static_cast<std::int64_t>(nearest.points), ""});
+    step.values.push_back({"nearest sample", nearest.points > 0 ? double{nearest.nearest_m} : infinite, "m"});
+    step.sentence +=
+        " This ray should have been traced. The nearest point sample is " + metres_text(nearest.nearest_m) + " away";
+    if (!nearest.should_have_seen) {
+        step.sentence += ", and no sample of the cell would have answered as Embree does.";
+        return;
+    }
+    step.values.push_back({"sample that sees it", double{nearest.should_have_seen_m}, "m"});
+    step.sentence += ", and one " + metres_text(nearest.should_have_seen_m) +
+                     " away would have kept it, had it cast a ray in this direction.";
+    step.geometry.push_back({"sample", TraceShape::point, {nearest.should_have_seen->position}});
+}
+
+Trace trace(const Structure& structure, const TraceRequest& request) {
+    const BuiltField& built = built_field(structure);
+    SampleTrace traced =
+        trace_sample(built.field, *built.embree, culling_of(request.parameters),
+                     {request.position, request.normal, -request.light.direction, request.light.intensity});
+    if (traced.is_wrong() && !traced.trace.steps.empty()) add_nearest(built, traced, traced.trace.steps.back());
+    return std::move(traced.trace);
+}
+
+Statistics statistics(const Structure& structure) {
+    const BuiltField& built = built_field(structure);
+    const VisibilityField& field = built.field;
+    const FieldShape& shape = field.shape;
+    const std::vector<OccupiedCell> cells = occupied_cells(field);
+    const auto occluded = std::ranges::count(cells, 1u, &OccupiedCell::label);
+    const double count = std::max(1.0, static_cast<double>(cells.size()));
+    const auto distinct = field.mask_numbers.empty() ? 0u : 1u + std::ranges::max(field.mask_numbers);
+    Statistics statistics;
+    statistics.uncompressed_bytes = dense_bytes(shape);
+    statistics.structure_bytes = built.dense ? statistics.uncompressed_bytes : field.bytes();
+    statistics.build_seconds = built.build_seconds;
+    statistics.values = {{"cells of the grid", static_cast<double>(shape.cells_x) * shape.cells_y * shape.cells_z, ""},
+                         {"cells with masks", static_cast<double>(cells.size()), ""},
+                         {"cells called occluded", 100.0 * static_cast<double>(occluded) / count, "%"},
+                         {"cells called visible",
+                          100.0 * (static_cast<double>(cells.size()) - static_cast<double>(occluded)) / count, "%"},
+                         {"point samples", static_cast<double>(field.points), ""},
+                         {"rays cast", static_cast<double>(field.rays), ""},
+                         {"placing the samples", field.place_seconds, "s"},
+                         {"casting the rays", field.cast_seconds, "s"},
+                         {"masks that are copies of others",
+                          2.0 * static_cast<double>(cells.size()) - static_cast<double>(distinct), ""},
+                         {"bytes packed", static_cast<double>(field.bytes()), "B"},
+                         {"bytes in the paper's layout", static_cast<double>(dense_bytes(shape)), "B"}};
+    return statistics;
+}
+
+constexpr EnvironmentLit environment{
+    [](const ParameterValues& chosen) { return static_cast<std::uint32_t>(value_of(chosen, "samples")); },
+    [](const ParameterValues& chosen, std::uint64_t seed) { return std::any(new_pattern(chosen, seed)); },
+    lights,
+    reference,
+};
+
+constexpr Technique row{
+    "visibility_field",
+    "Visibility field",
+    "Y. Xu, Y. Jiang, C. Wang, K. Li, P. Zhou, G. Geng: Precomputed Discrete Visibility Fields for Real-Time "
+    "Ray-Traced Environment Lighting. 2022",
+    "Each cell of a grid knows in which directions its surfaces see the sky; rays whose answer it knows are not "
+    "traced.",
+    stages,
+    parameters,
+    build,
+    render,
+    trace,
+    statistics,
+    false,
+    nullptr,
+    &environment};
+
+}  // namespace
+
+const Technique& technique() { return row; }
+
+const BuiltField& built_field(const Structure& structure) {
+    return *std::any_cast<const BuiltFieldPointer&>(structure);
+}
+
+Culling culling_of(const ParameterValues& chosen) { return choice_of<Culling>(chosen, "culling"); }
+
+}  // namespace sightlines::visibility_field

@@ -1,0 +1,29 @@
+// Visibility field: Xu et al. 2022, "Precomputed Discrete Visibility Fields for Real-Time Ray-Traced Environment
+// Lighting". The technique's row in the catalog, and what a view asks beyond that.
+#pragma once
+
+#include "techniques/technique.h"
+#include "techniques/visibility_field/bake.h"
+#include "techniques/visibility_field/trace.h"
+
+namespace sightlines::visibility_field {
+
+const Technique& technique();
+
+/// What `technique().build` makes.
+struct BuiltField {
+    VisibilityField field;
+    CellPoints points;  ///< that it was baked from
+    BakeOptions options;
+    std::shared_ptr<const EmbreeScene> embree;  ///< that answers what the field leaves open
+    std::optional<DenseField> dense;            ///< where the paper's layout is asked for
+    double build_seconds = 0.0;
+};
+
+/// The field inside a structure that `technique().build` made.
+const BuiltField& built_field(const Structure& structure);
+
+/// Which rays of a picture with these parameters are traced.
+Culling culling_of(const ParameterValues& parameters);
+
+}  // namespace sightlines::visibility_field
