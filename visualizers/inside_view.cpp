@@ -23,7 +23,8 @@ bool is_same_solid(const VoxelRowPicture& a, const VoxelRowPicture& b) {
 }
 
 bool is_same_solid(const RayPicture& a, const RayPicture& b) {
-    return a.scene == b.scene && a.boxes == b.boxes && a.ray.origin == b.ray.origin && a.ray.target == b.ray.target;
+    return a.scene == b.scene && a.boxes == b.boxes && a.patches == b.patches && a.ray.origin == b.ray.origin &&
+           a.ray.target == b.ray.target;
 }
 
 constexpr float body_text_pixels = 12.0f;  // at text scale 1

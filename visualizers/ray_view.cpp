@@ -72,6 +72,13 @@ ColouredTriangles kept_boxes(const RayPicture& picture, const CutPlane& cut, boo
     return box_triangles(kept);
 }
 
+ColouredTriangles patch_triangles(const std::vector<ValuedPatch>& patches, const Palette& colours) {
+    ColouredTriangles out;
+    for (const ValuedPatch& patch : patches)
+        add_quad(out, patch.corners, glm::mix(colours.ray, colours.set_bit, patch.value));
+    return out;
+}
+
 Box3 drawn_bounds(const RayPicture& picture) {
     Box3 bounds;
     bounds.add(picture.ray.origin);
@@ -168,11 +175,15 @@ struct RayView::Objects {
     vtkNew<vtkRenderer> renderer;
     vtkNew<vtkPlane> cut;
     Piece scene, boxes;
+    SolidPiece patches;
+    std::vector<ValuedPatch> patches_made_from;
+    Theme patches_theme = Theme::light;
 
     Objects() {
         renderer->SetBackground(0.0, 0.0, 0.0);
         renderer->SetBackgroundAlpha(0.0);
         for (Piece* const piece : {&scene, &boxes}) renderer->AddActor(piece->solid.actor);
+        renderer->AddActor(patches.actor);
         scene.solid.mapper->AddClippingPlane(cut);
         window->AddRenderer(renderer);
     }
@@ -195,7 +206,7 @@ OrbitCamera shown_camera(const RayPicture& picture, const ViewState& state, Imag
     camera.elevation_deg = 24.0f;
     const std::array points{ray.origin, ray.target};
     camera.distance_m =
-        std::max(fitting_distance_m(view_camera(camera, size), camera.focal_point, points, {0.7f, 0.6f}), 1e-4f);
+        std::max(fitting_distance_m(view_camera(camera, size), camera.focal_point, points, {0.7f, 0.6f}), 1e-2f);
     return camera;
 }
 
@@ -213,6 +224,12 @@ ImageRgba8 render_solid(RayView& view, const RayPicture& picture, const ViewStat
     keep_made(objects.boxes, state.voxels && picture.boxes && !picture.boxes->empty(),
               {.content = picture.boxes, .cut = whole ? CutPlane{} : cut, .theme = state.theme},
               [&] { return kept_boxes(picture, cut, whole, colours); });
+    objects.patches.actor->SetVisibility(state.voxels && !picture.patches.empty());
+    if (objects.patches_made_from != picture.patches || objects.patches_theme != state.theme) {
+        set_triangles(objects.patches, patch_triangles(picture.patches, colours));
+        objects.patches_made_from = picture.patches;
+        objects.patches_theme = state.theme;
+    }
     objects.cut->SetOrigin(cut.origin.x, cut.origin.y, cut.origin.z);
     objects.cut->SetNormal(cut.normal.x, cut.normal.y, cut.normal.z);
     const Box3 bounds = drawn_bounds(picture);
@@ -239,7 +256,7 @@ void draw_ray_marks(Canvas& canvas, const RayPicture& picture, const ViewState& 
     draw_orientation(sheet, std::nullopt);
     draw_scale_bar(sheet, orbit, "");
     take_line(sheet, picture.ray.origin, picture.ray.target, 0.5f * sheet.em);
-    if (state.ray) label_ray(sheet, picture.ray);
+    if (state.ray) label_ray(sheet, picture.ray, picture.end_name);
 }
 
 float map_panel_height(const RayPicture& picture, vec2 size, float text_height) {

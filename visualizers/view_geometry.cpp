@@ -111,6 +111,13 @@ ColouredTriangles voxel_triangles(const VoxelRowPicture& picture, const VoxelBox
     return out;
 }
 
+void add_quad(ColouredTriangles& out, const std::array<vec3, 4>& corners, vec3 colour) {
+    const vec3 normal = glm::cross(corners[2] - corners[0], corners[3] - corners[1]);
+    const float length = glm::length(normal);
+    const vec3 lit = colour * glm::mix(1.0f, light_on(length > 0.0f ? normal / length : vec3(0.0f)), 0.7f);
+    add_quad(out, corners, {lit, lit, lit, lit}, false);
+}
+
 ColouredTriangles box_triangles(std::span<const ColouredBox> boxes) {
     constexpr float inset = 0.03f;  // of a side
     VoxelRowPicture world;          // a voxel is a metre

@@ -2,6 +2,7 @@
 // nothing but drawing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,6 +24,9 @@ ColouredTriangles ghost_triangles(const Scene& scene, const CutPlane& cut, const
 
 /// The faces of the voxels in the box.
 ColouredTriangles voxel_triangles(const VoxelRowPicture& picture, const VoxelBox& box, const Palette& colours);
+
+/// Appends a flat patch, lit by its normal; corners in order.
+void add_quad(ColouredTriangles& out, const std::array<vec3, 4>& corners, vec3 colour);
 
 /// A box along the world's axes.
 struct ColouredBox {

@@ -92,10 +92,10 @@ void draw_ray(Sheet& sheet, const Segment& ray) {
     if (const auto to = projected(sheet.camera, ray.target)) draw_light(sheet, vec2(*to));
 }
 
-void label_ray(Sheet& sheet, const Segment& ray) {
+void label_ray(Sheet& sheet, const Segment& ray, const std::string& end_name) {
     const auto from = projected(sheet.camera, ray.origin), to = projected(sheet.camera, ray.target);
     if (from) place_label(sheet, vec2(*from), {-0.6f, -1.0f}, "surface point", label_style(sheet, sheet.colours.ray));
-    if (to) place_label(sheet, vec2(*to), {0.6f, -1.0f}, "light", label_style(sheet, sheet.colours.ray));
+    if (to) place_label(sheet, vec2(*to), {0.6f, -1.0f}, end_name, label_style(sheet, sheet.colours.ray));
 }
 
 void draw_orientation(Sheet& sheet, const std::optional<NamedAxis>& own) {

@@ -38,7 +38,7 @@ void take_line(Sheet& sheet, vec3 from, vec3 to, float half_width);
 
 /// The ray from the surface point to the light, and both ends.
 void draw_ray(Sheet& sheet, const Segment& ray);
-void label_ray(Sheet& sheet, const Segment& ray);
+void label_ray(Sheet& sheet, const Segment& ray, const std::string& end_name = "light");
 
 /// One more arrow beside those of the world's axes.
 struct NamedAxis {

@@ -26,7 +26,7 @@ DictionaryPicture mapped_to(const std::vector<int>& bits, int step) {
 }
 
 std::string svg_of(const DictionaryPicture& picture) {
-    InsideView view;
+    VoxelRowView view;
     const auto bytes = dictionary_figure(view, picture, {}, CanvasFormat::svg, {.dpi = 72.0f});
     return {bytes.begin(), bytes.end()};
 }
