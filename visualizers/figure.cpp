@@ -60,6 +60,39 @@ float draw_panel(Canvas& canvas, const VoxelRowPicture& picture, const ViewState
     return y + std::max(legend, wedge > 0.0f ? 3.0f * em : 0.0f) + 0.6f * margin - top;
 }
 
+/// A page with the view in space above and a panel below.
+struct Page {
+    Canvas canvas;
+    ImageSize in_space;  ///< points
+    ImageSize pixels;    ///< of the view in space, as it is rendered
+    Rectangle panel;
+};
+
+float page_width(const FigureOptions& options) { return std::round(options.width_mm * points_per_mm); }
+
+Page make_page(CanvasFormat format, const ViewState& state, const FigureOptions& options, float aspect, float panel) {
+    const float width = page_width(options), height = std::round(aspect * width), scale = options.dpi / 72.0f;
+    Page page{make_page_canvas(format, {width, std::ceil(height + panel)}, options.dpi),
+              {static_cast<int>(width), static_cast<int>(height)},
+              {static_cast<int>(std::round(width * scale)), static_cast<int>(std::round(height * scale))},
+              {{0.0f, height}, {width, panel}}};
+    if (state.theme != Theme::print)
+        fill_rectangle(page.canvas, {{0.0f, 0.0f}, page.canvas.size}, palette(state.theme).page);
+    return page;
+}
+
+template <class View, class Picture>
+void draw_solid(Page& page, View& view, const Picture& picture, const ViewState& state) {
+    draw_picture(page.canvas, {{0.0f, 0.0f}, page.panel.corner + vec2(page.panel.size.x, 0.0f)},
+                 render_solid(view, picture, state, page.pixels, page.pixels.width > supersampled_width ? 1 : 2));
+}
+
+/// Between the view and the panel.
+void draw_rule(Page& page, const ViewState& state) {
+    draw_line(page.canvas, page.panel.corner, page.panel.corner + vec2(page.panel.size.x, 0.0f),
+              {.colour = palette(state.theme).hairline, .width = 0.5f});
+}
+
 }  // namespace
 
 FigureFormat parse_figure_format(const std::string& text) {
@@ -100,45 +133,29 @@ std::vector<std::uint8_t> voxel_row_figure(VoxelRowView& view, const VoxelRowPic
 std::vector<std::uint8_t> dictionary_figure(VoxelRowView& view, const DictionaryPicture& picture,
                                             const ViewState& state, CanvasFormat format, const FigureOptions& options) {
     check_options(options);
-    const float width = std::round(options.width_mm * points_per_mm);
-    const float panel = dictionary_panel_height({width, 10.0f * width}, text_height);
-    const ImageSize in_space{static_cast<int>(width), static_cast<int>(std::round(0.45f * width))};
-    const float height = static_cast<float>(in_space.height);
-    const float scale = options.dpi / 72.0f;
-    const ImageSize pixels{static_cast<int>(std::round(width * scale)), static_cast<int>(std::round(height * scale))};
-    const Palette colours = palette(state.theme);
-    Canvas canvas = make_page_canvas(format, {width, std::ceil(height + panel)}, options.dpi);
-    if (state.theme != Theme::print) fill_rectangle(canvas, {{0.0f, 0.0f}, canvas.size}, colours.page);
-    draw_picture(canvas, {{0.0f, 0.0f}, {width, height}},
-                 render_solid(view, picture.row, state, pixels, pixels.width > supersampled_width ? 1 : 2));
-    draw_lit(canvas, view_camera(shown_camera(picture.row, state, in_space), in_space), differing_voxels(picture),
-             colours, text_height / 12.0f, Emphasis::step);
-    draw_voxel_row_marks(canvas, picture.row, state, in_space, text_height / 12.0f, MarksKey::none);
-    draw_line(canvas, {0.0f, height}, {width, height}, {.colour = colours.hairline, .width = 0.5f});
-    draw_dictionary_panel(canvas, picture, state, {{0.0f, height}, {width, panel}}, text_height);
-    return finished_file(canvas);
+    const float width = page_width(options);
+    Page page = make_page(format, state, options, 0.45f, dictionary_panel_height({width, 10.0f * width}, text_height));
+    draw_solid(page, view, picture.row, state);
+    draw_lit(page.canvas, view_camera(shown_camera(picture.row, state, page.in_space), page.in_space),
+             differing_voxels(picture), palette(state.theme), text_height / 12.0f, Emphasis::step);
+    draw_voxel_row_marks(page.canvas, picture.row, state, page.in_space, text_height / 12.0f, MarksKey::none);
+    draw_rule(page, state);
+    draw_dictionary_panel(page.canvas, picture, state, page.panel, text_height);
+    return finished_file(page.canvas);
 }
 
 std::vector<std::uint8_t> ray_figure(RayView& view, const RayPicture& picture, const ViewState& state,
                                      CanvasFormat format, const FigureOptions& options) {
     check_options(options);
-    const float width = std::round(options.width_mm * points_per_mm);
-    const ImageSize in_space{static_cast<int>(width), static_cast<int>(std::round(0.54f * width))};
-    const float height = static_cast<float>(in_space.height);
-    const float panel = map_panel_height(picture, {width, width}, text_height);
-    const float scale = options.dpi / 72.0f;
-    const ImageSize pixels{static_cast<int>(std::round(width * scale)), static_cast<int>(std::round(height * scale))};
-    const Palette colours = palette(state.theme);
-    Canvas canvas = make_page_canvas(format, {width, std::ceil(height + panel)}, options.dpi);
-    if (state.theme != Theme::print) fill_rectangle(canvas, {{0.0f, 0.0f}, canvas.size}, colours.page);
-    draw_picture(canvas, {{0.0f, 0.0f}, {width, height}},
-                 render_solid(view, picture, state, pixels, pixels.width > supersampled_width ? 1 : 2));
-    draw_ray_marks(canvas, picture, state, in_space, text_height / 12.0f);
-    if (panel > 0.0f) {
-        draw_line(canvas, {0.0f, height}, {width, height}, {.colour = colours.hairline, .width = 0.5f});
-        draw_map_panel(canvas, picture, state, {{0.0f, height}, {width, panel}}, text_height);
+    const float width = page_width(options);
+    Page page = make_page(format, state, options, 0.54f, map_panel_height(picture, {width, width}, text_height));
+    draw_solid(page, view, picture, state);
+    draw_ray_marks(page.canvas, picture, state, page.in_space, text_height / 12.0f);
+    if (page.panel.size.y > 0.0f) {
+        draw_rule(page, state);
+        draw_map_panel(page.canvas, picture, state, page.panel, text_height);
     }
-    return finished_file(canvas);
+    return finished_file(page.canvas);
 }
 
 namespace {

@@ -26,18 +26,14 @@ struct MadeFrom {
     bool operator==(const MadeFrom&) const = default;
 };
 
-struct Piece {
-    SolidPiece solid;
-    MadeFrom made_from;
-};
+using Piece = KeptPiece<MadeFrom>;
 
-template <class Make>
-void keep_made(Piece& piece, bool visible, MadeFrom from, const Make& make) {
-    piece.solid.actor->SetVisibility(visible);
-    if (!visible || piece.made_from == from) return;
-    set_triangles(piece.solid, make());
-    piece.made_from = std::move(from);
-}
+struct PatchesFrom {
+    std::vector<ValuedPatch> patches;
+    Theme theme = Theme::light;
+
+    bool operator==(const PatchesFrom&) const = default;
+};
 
 vec3 any_across(vec3 along) {
     const vec3 least = std::abs(along.y) < 0.9f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f);
@@ -175,15 +171,13 @@ struct RayView::Objects {
     vtkNew<vtkRenderer> renderer;
     vtkNew<vtkPlane> cut;
     Piece scene, boxes;
-    SolidPiece patches;
-    std::vector<ValuedPatch> patches_made_from;
-    Theme patches_theme = Theme::light;
+    KeptPiece<PatchesFrom> patches;
 
     Objects() {
         renderer->SetBackground(0.0, 0.0, 0.0);
         renderer->SetBackgroundAlpha(0.0);
         for (Piece* const piece : {&scene, &boxes}) renderer->AddActor(piece->solid.actor);
-        renderer->AddActor(patches.actor);
+        renderer->AddActor(patches.solid.actor);
         scene.solid.mapper->AddClippingPlane(cut);
         window->AddRenderer(renderer);
     }
@@ -219,17 +213,14 @@ ImageRgba8 render_solid(RayView& view, const RayPicture& picture, const ViewStat
     const Palette colours = palette(state.theme);
     const bool has_scene = picture.scene && !picture.scene->triangles.empty();
     const bool whole = state.cut_away == CutAway::none;
-    keep_made(objects.scene, state.scene && has_scene, {.content = picture.scene, .cut = cut, .theme = state.theme},
+    keep_made(objects.scene, state.scene && has_scene,
+              MadeFrom{.content = picture.scene, .cut = cut, .theme = state.theme},
               [&] { return ghost_triangles(*picture.scene, cut, colours); });
     keep_made(objects.boxes, state.voxels && picture.boxes && !picture.boxes->empty(),
-              {.content = picture.boxes, .cut = whole ? CutPlane{} : cut, .theme = state.theme},
+              MadeFrom{.content = picture.boxes, .cut = whole ? CutPlane{} : cut, .theme = state.theme},
               [&] { return kept_boxes(picture, cut, whole, colours); });
-    objects.patches.actor->SetVisibility(state.voxels && !picture.patches.empty());
-    if (objects.patches_made_from != picture.patches || objects.patches_theme != state.theme) {
-        set_triangles(objects.patches, patch_triangles(picture.patches, colours));
-        objects.patches_made_from = picture.patches;
-        objects.patches_theme = state.theme;
-    }
+    keep_made(objects.patches, state.voxels && !picture.patches.empty(), PatchesFrom{picture.patches, state.theme},
+              [&] { return patch_triangles(picture.patches, colours); });
     objects.cut->SetOrigin(cut.origin.x, cut.origin.y, cut.origin.z);
     objects.cut->SetNormal(cut.normal.x, cut.normal.y, cut.normal.z);
     const Box3 bounds = drawn_bounds(picture);

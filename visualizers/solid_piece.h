@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -23,6 +24,21 @@ struct SolidPiece {
 };
 
 void set_triangles(SolidPiece& piece, const ColouredTriangles& triangles);
+
+/// A piece that is made again only when what it was made from, `Key`, changes.
+template <class Key>
+struct KeptPiece {
+    SolidPiece solid;
+    Key made_from{};
+};
+
+template <class Key, class Make>
+void keep_made(KeptPiece<Key>& piece, bool visible, Key from, const Make& make) {
+    piece.solid.actor->SetVisibility(visible);
+    if (!visible || piece.made_from == from) return;
+    set_triangles(piece.solid, make());
+    piece.made_from = std::move(from);
+}
 
 /// The same view for VTK; near and far planes round the bounds, m.
 void set_camera(vtkCamera& camera, const ViewCamera& view, const Box3& bounds);

@@ -34,18 +34,7 @@ struct MadeFrom {
     bool operator==(const MadeFrom&) const = default;
 };
 
-struct Piece {
-    SolidPiece solid;
-    MadeFrom made_from;
-};
-
-template <class Make>
-void keep_made(Piece& piece, bool visible, MadeFrom from, const Make& make) {
-    piece.solid.actor->SetVisibility(visible);
-    if (!visible || piece.made_from == from) return;
-    set_triangles(piece.solid, make());
-    piece.made_from = std::move(from);
-}
+using Piece = KeptPiece<MadeFrom>;
 
 /// Everything that may be drawn, to set the near and far planes around.
 Box3 drawn_bounds(const VoxelRowPicture& picture) {
@@ -96,23 +85,24 @@ void make_pieces(VoxelRowView::Objects& objects, const VoxelRowPicture& picture,
     const Palette colours = palette(state.theme);
     const CutPlane plane = cut_plane(picture, cut);
     const bool has_scene = picture.scene && !picture.scene->triangles.empty();
-    keep_made(objects.scene, state.scene && has_scene, {.content = picture.scene, .cut = plane, .theme = state.theme},
+    keep_made(objects.scene, state.scene && has_scene,
+              MadeFrom{.content = picture.scene, .cut = plane, .theme = state.theme},
               [&] { return ghost_triangles(*picture.scene, plane, colours); });
     keep_made(objects.voxels, state.voxels && !cut.box.empty(),
-              {.content = picture.occupied,
-               .world_from_voxels = picture.world_from_voxels,
-               .box = cut.box,
-               .theme = state.theme},
+              MadeFrom{.content = picture.occupied,
+                       .world_from_voxels = picture.world_from_voxels,
+                       .box = cut.box,
+                       .theme = state.theme},
               [&] { return voxel_triangles(picture, cut.box, colours); });
     keep_made(objects.row, state.row,
-              {.content = picture.occupied,
-               .world_from_voxels = picture.world_from_voxels,
-               .v = picture.v,
-               .w = picture.w,
-               .first = picture.first,
-               .last = picture.last,
-               .theme = state.theme,
-               .mark_extent = state.extent},
+              MadeFrom{.content = picture.occupied,
+                       .world_from_voxels = picture.world_from_voxels,
+                       .v = picture.v,
+                       .w = picture.w,
+                       .first = picture.first,
+                       .last = picture.last,
+                       .theme = state.theme,
+                       .mark_extent = state.extent},
               [&] { return row_triangles(picture, colours, state.extent); });
 }
 
