@@ -1,6 +1,8 @@
 #include "app/session.h"
 
 #include <fstream>
+#include <map>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -355,6 +357,21 @@ TEST(SessionPart, OfTheStructureHoldsOnlyParametersThatChangeIt) {
             EXPECT_NE(picture_part(session), picture_part(at_defaults)) << row.name;
         }
     }
+}
+
+TEST(ShippedSessions, LoadAndDifferInTheirTechniqueAlone) {
+    std::map<std::string, Session> first_of_scene;
+    std::set<std::string> techniques_shown;
+    for (const auto& entry : fs::directory_iterator(fs::path(SIGHTLINES_SOURCE_FOLDER) / "lessons" / "comparisons")) {
+        if (entry.path().extension() != ".json") continue;
+        Session session = load_session(entry.path());
+        EXPECT_TRUE(techniques_shown.insert(session.scene + session.technique).second) << entry.path();
+        EXPECT_TRUE(entry.path().filename().string().starts_with(session.scene + "-")) << entry.path();
+        session.technique.clear();
+        session.parameters.clear();
+        EXPECT_EQ(first_of_scene.emplace(session.scene, session).first->second, session) << entry.path();
+    }
+    EXPECT_EQ(techniques_shown.size(), 6u);
 }
 
 }  // namespace
