@@ -118,7 +118,13 @@ void prepare_drivers() {
 #endif
 }
 
-Window::Window(const std::string& title, ImageSize size) : objects(std::make_unique<Objects>(title, size)) {}
+Window::Window(const std::string& title, ImageSize size) : objects(std::make_unique<Objects>(title, size)) {
+    // A driver compiles what it draws with at the first use: here, and not while a frame is waited for.
+    follow_look(*objects, {});
+    begin_imgui_frame(objects->imgui, {});
+    ImGui::GetForegroundDrawList()->AddText(ImVec2(0.0f, 0.0f), colours(objects->look->theme).page, ".");
+    end_frame(*this);
+}
 Window::~Window() = default;
 Window::Window(Window&&) noexcept = default;
 Window& Window::operator=(Window&&) noexcept = default;
