@@ -1,6 +1,5 @@
 // The view of a ray, taken out of any technique's structure.
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "app/inside.h"
@@ -61,14 +60,37 @@ PictureMap picture_map(const baselines::LookedUpMap& map) {
 std::vector<PictureMap> maps_of(const Session& session, const SelectedRay& ray, const Structure& structure) {
     std::vector<PictureMap> maps;
     if (session.technique == "shadow_maps")
-        for (const auto& map : baselines::looked_up_maps(structure, ray.request)) maps.push_back(picture_map(map));
+        for (const auto& map : baselines::looked_up_maps(structure, ray.request, ray.trace))
+            maps.push_back(picture_map(map));
     if (session.technique == "imperfect_shadow_maps")
-        for (const auto& map : baselines::looked_up_imperfect_maps(structure, ray.request))
+        for (const auto& map : baselines::looked_up_imperfect_maps(structure, ray.request, ray.trace))
             maps.push_back(picture_map(map));
     return maps;
 }
 
-/// What the field knows of the cell that a sample starts in: both masks, flat and on a sphere about the cell.
+/// The directions of both masks on a sphere about their cell.
+std::vector<ValuedPatch> folded(const PictureMap& visible, const PictureMap& occluded, const Box3& cell) {
+    const int side = visible.side;
+    const float radius_m = 0.75f * cell.diagonal(), texel = 2.0f / static_cast<float>(side);
+    const auto on_sphere = [&](int column, int row) {
+        return cell.centre() +
+               radius_m * scalar_kernel::octahedral_direction(
+                              {texel * static_cast<float>(column) - 1.0f, texel * static_cast<float>(row) - 1.0f});
+    };
+    std::vector<ValuedPatch> patches;
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+            const auto k = static_cast<std::size_t>(row * side + column);
+            const float seen = visible.values[k], blocked = occluded.values[k];
+            if (seen + blocked == 0.0f) continue;
+            patches.push_back({{on_sphere(column, row), on_sphere(column + 1, row), on_sphere(column + 1, row + 1),
+                                on_sphere(column, row + 1)},
+                               blocked / (seen + blocked)});
+        }
+    return patches;
+}
+
+/// What the field knows of the cell that a sample starts in: both masks, flat and folded.
 void add_masks(RayPicture& picture, const visibility_field::BuiltField& built, const SelectedRay& ray) {
     using namespace visibility_field;
     const TraceRequest& request = ray.request;
@@ -76,34 +98,15 @@ void add_masks(RayPicture& picture, const visibility_field::BuiltField& built, c
                                             {request.position, request.normal, -request.light.direction, vec3(0.0f)});
     if (traced.fate == Fate::outside_cells || traced.fate == Fate::below_surface) return;
     const int side = built.field.shape.mask_size;
-    std::array<std::span<const std::uint32_t>, 2> masks;
     for (const int which : {0, 1}) {
-        masks[static_cast<std::size_t>(which)] = mask_words(built.field, traced.cell_index, which);
+        const auto words = mask_words(built.field, traced.cell_index, which);
         PictureMap map{which == 0 ? "visibility mask" : "occlusion mask", side, {}, traced.texel};
         for (int row = 0; row < side; ++row)
             for (int column = 0; column < side; ++column)
-                map.values.push_back(mask_bit(masks[static_cast<std::size_t>(which)], side, column, row) ? 1.0f : 0.0f);
+                map.values.push_back(mask_bit(words, side, column, row) ? 1.0f : 0.0f);
         picture.maps.push_back(std::move(map));
     }
-    const Box3 cell = cell_box(built.field.shape, traced.cell);
-    const float radius_m = 0.75f * cell.diagonal();
-    const auto on_sphere = [&](int column, int row) {
-        const float texel = 2.0f / static_cast<float>(side);
-        return cell.centre() +
-               radius_m * scalar_kernel::octahedral_direction(
-                              {texel * static_cast<float>(column) - 1.0f, texel * static_cast<float>(row) - 1.0f});
-    };
-    for (int row = 0; row < side; ++row)
-        for (int column = 0; column < side; ++column) {
-            const bool visible = mask_bit(masks[0], side, column, row),
-                       occluded = mask_bit(masks[1], side, column, row);
-            if (!visible && !occluded) continue;
-            picture.patches.push_back({{on_sphere(column, row), on_sphere(column + 1, row),
-                                        on_sphere(column + 1, row + 1), on_sphere(column, row + 1)},
-                                       visible && occluded ? 0.5f
-                                       : occluded          ? 1.0f
-                                                           : 0.0f});
-        }
+    picture.patches = folded(picture.maps[0], picture.maps[1], cell_box(built.field.shape, traced.cell));
 }
 
 /// Each piece of geometry once.

@@ -59,7 +59,7 @@ CutPlane cut_along(const RayPicture& picture, vec3 forward) {
     return best;
 }
 
-/// Cells on the kept side, and those that the plane passes through.
+/// All cells, or those whose middle is on the kept side.
 ColouredTriangles kept_boxes(const RayPicture& picture, const CutPlane& cut, bool all, const Palette& colours) {
     std::vector<ColouredBox> kept;
     for (const ValuedBox& each : *picture.boxes)

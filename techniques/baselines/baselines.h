@@ -32,10 +32,12 @@ struct LookedUpMap {
     std::optional<ivec2> asked;   ///< column and row of the ray's texel, where it is in this map
 };
 
-/// All maps of the request's light: six faces, two paraboloids, or one. Imperfect ones as they are drawn first, without
-/// their holes filled, and then as they are looked up. For structures of shadow_maps and imperfect_shadow_maps.
-std::vector<LookedUpMap> looked_up_maps(const Structure& structure, const TraceRequest& request);
-std::vector<LookedUpMap> looked_up_imperfect_maps(const Structure& structure, const TraceRequest& request);
+/// All maps of the request's light, of which `traced` is the recorded ray: six faces, two paraboloids, or one.
+/// Imperfect ones as they are drawn first, without their holes filled, and then as they are looked up. For structures
+/// of shadow_maps and imperfect_shadow_maps.
+std::vector<LookedUpMap> looked_up_maps(const Structure& structure, const TraceRequest& request, const Trace& traced);
+std::vector<LookedUpMap> looked_up_imperfect_maps(const Structure& structure, const TraceRequest& request,
+                                                  const Trace& traced);
 
 /// The occupied voxels of a marching technique's structure, as boxes, m.
 std::vector<Box3> occupied_boxes(const Structure& structure);

@@ -89,7 +89,7 @@ TEST(FieldTables, ShowThePapersFiguresUnderItsOwnSceneWhereAnotherIsMeasured) {
 
 TEST(FieldTables, PutThePapersFiguresBesideOursForAFileCalledSponza) {
     const fs::path file = fs::path(shared_folder) / "scenes" / "sponza_crytek.glb";
-    if (!fs::exists(file)) GTEST_SKIP() << file;
+    if (!fs::exists(file)) GTEST_SKIP() << file << " is absent";
     const ProgramRun run = quick("visibility-field/figure5", fresh_folder(), {"--scene", fs::absolute(file).string()});
     ASSERT_EQ(run.exit_code, 0) << run.errors;
     const Json table = Json::parse(run.output);
@@ -123,7 +123,7 @@ TEST(FieldTables, TakeTheirLightFromAPictureAndRefuseOneThatIsMissingBeforeMeasu
     EXPECT_NE(missing.errors.find("none.hdr"), std::string::npos) << missing.errors;
     EXPECT_EQ(missing.errors.find("reading and building"), std::string::npos) << missing.errors;
     const fs::path file = fs::path(shared_folder) / "env" / "venice_512.hdr";
-    if (!fs::exists(file)) GTEST_SKIP() << file;
+    if (!fs::exists(file)) GTEST_SKIP() << file << " is absent";
     const Words lit{"--scene", "cornell", "--environment", fs::absolute(file).string()};
     const ProgramRun run = quick("visibility-field/figure5", fresh_folder(), lit);
     ASSERT_EQ(run.exit_code, 0) << run.errors;

@@ -187,11 +187,11 @@ const Technique& imperfect_shadow_maps() {
     return row;
 }
 
-std::vector<LookedUpMap> looked_up_imperfect_maps(const Structure& structure, const TraceRequest& request) {
+std::vector<LookedUpMap> looked_up_imperfect_maps(const Structure& structure, const TraceRequest& request,
+                                                  const Trace& traced) {
     constexpr std::array<std::string_view, paraboloids> splatted{"points, front", "points, back"},
         filled{"filled, front", "filled, back"};
     const SampledScene& scene = sampled(structure);
-    const Trace traced = trace(structure, request);
     SplatOptions splats = splat_options(request.parameters);
     const LightMaps whole = maps_of_light(scene, request, splats);
     splats.fill_levels = 0;

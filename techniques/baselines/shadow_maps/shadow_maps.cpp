@@ -202,16 +202,14 @@ const Technique& shadow_maps() {
     return row;
 }
 
-std::vector<LookedUpMap> looked_up_maps(const Structure& structure, const TraceRequest& request) {
+std::vector<LookedUpMap> looked_up_maps(const Structure& structure, const TraceRequest& request, const Trace& traced) {
     constexpr std::array<std::string_view, cube_faces> faces{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
     constexpr std::array<std::string_view, 1> directional{"from the light"};
-    const CasterTriangles& triangles = casters(structure);
-    const LightMaps maps = whole_maps(triangles, request);
+    const LightMaps maps = whole_maps(casters(structure), request);
     const ShadowMapShape& shape = maps.shapes[0];
     std::span<const std::string_view> titles = faces;
     if (shape.directional != 0) titles = directional;
-    return maps_of_trace(shape, maps.maps(0), titles,
-                         trace_map(shape, maps.maps(0), MapKind::conventional, request, triangles.reach_m));
+    return maps_of_trace(shape, maps.maps(0), titles, traced);
 }
 
 QueryCount count_by_shadow_maps(const Structure& structure, const RenderRequest& request) {
