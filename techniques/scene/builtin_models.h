@@ -26,6 +26,10 @@ SceneModel park_model();
 /// A living room with a television as light, after Figure 8 of Wang 2017: 1,024 lights of its own; the picture moves.
 SceneModel tv_model();
 
+/// A street of old houses over shops, with a café's terrace, an exterior as rich as *Bistro* of Xu 2022: about 2,800,000
+/// triangles, a moving sun.
+SceneModel street_model();
+
 /// A church's nave after the scene *Cathedral* of Wang 2017: about 456,000 triangles; candles flicker.
 SceneModel cathedral_model();
 

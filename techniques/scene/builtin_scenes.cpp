@@ -65,7 +65,7 @@ Light sun_light(const SunArc& arc, double time_s) {
 const std::vector<SceneModel>& builtin_scenes() {
     static const std::vector<SceneModel> scenes = {cornell_model(),   atrium_model(), trees_model(), garden_model(),
                                                    cathedral_model(), planes_model(), bear_model(),  bear_full_model(),
-                                                   park_model(),      tv_model()};
+                                                   park_model(),      tv_model(),     street_model()};
     return scenes;
 }
 

@@ -203,7 +203,7 @@ TEST_P(BuiltinScene, LoopsAfterItsDuration) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinScene,
                          testing::Values("cornell", "atrium", "trees", "garden", "cathedral", "planes", "bear",
-                                         "bear_full", "park", "tv"),
+                                         "bear_full", "park", "tv", "street"),
                          [](const auto& test) { return std::string(test.param); });
 
 /// Outdoors by day: the first light is the sun, which moves and stays up; nothing else does.
@@ -217,14 +217,15 @@ TEST_P(SunnyScene, HasASunThatMovesAndStaysUp) {
     for (std::size_t i = 1; i < scene.lights.size(); ++i) EXPECT_EQ(scene.lights[i], later.lights[i]) << "light " << i;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SunnyScene, testing::Values("atrium", "trees", "garden"),
+INSTANTIATE_TEST_SUITE_P(Scenes, SunnyScene, testing::Values("atrium", "trees", "garden", "street"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(BuiltinScenes, HaveTheTriangleCountsThatTheyAreKnownBy) {
     EXPECT_EQ(model_called("cornell").at(0.0).triangles.size(), 38u);
     const std::vector<std::pair<const char*, double>> known = {
-        {"atrium", 260000.0}, {"trees", 626000.0}, {"garden", 416000.0},     {"cathedral", 456000.0},
-        {"planes", 982000.0}, {"bear", 152000.0},  {"bear_full", 1486000.0}, {"park", 499000.0},
+        {"atrium", 260000.0},     {"trees", 626000.0},  {"garden", 416000.0},
+        {"cathedral", 456000.0},  {"planes", 982000.0}, {"bear", 152000.0},
+        {"bear_full", 1486000.0}, {"park", 499000.0},   {"street", 2800000.0},
     };
     for (const auto& [name, count] : known)
         EXPECT_NEAR(static_cast<double>(model_called(name).at(0.0).triangles.size()), count, 0.03 * count) << name;
@@ -234,7 +235,7 @@ TEST(BuiltinScenes, AreListedInOrder) {
     std::vector<std::string> names;
     for (const SceneModel& model : builtin_scenes()) names.push_back(model.name);
     EXPECT_EQ(names, (std::vector<std::string>{"cornell", "atrium", "trees", "garden", "cathedral", "planes", "bear",
-                                               "bear_full", "park", "tv"}));
+                                               "bear_full", "park", "tv", "street"}));
 }
 
 TEST(BuiltinScenes, AreFoundByName) {
