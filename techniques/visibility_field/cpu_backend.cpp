@@ -32,9 +32,6 @@ constexpr int tile_side = 32;             ///< pixels; one task
 constexpr int block_side = 4;             ///< pixels of a tile are taken in blocks, so that packets hold neighbours
 constexpr std::size_t batch_rays = 8192;  ///< packed before Embree is asked: they stay in the second-level cache
 
-/// Sums of the nine polynomials over some directions of a pixel.
-using PixelMoments = std::array<float, 9>;
-
 /// The rays of one pixel among the packed ones.
 struct Run {
     std::uint32_t pixel = 0;
@@ -247,13 +244,6 @@ PixelMoments traced_moments(const PackedRays& packed, const Run& run, std::size_
     return summed(moments);
 }
 
-/// pi / samples * sum of radiances.
-vec3 irradiance_of(const HarmonicLight& light, const PixelMoments& moments, int samples) {
-    vec3 sum(0.0f);
-    for (std::size_t k = 0; k < moments.size(); ++k) sum += moments[k] * light.term[k];
-    return sum * (std::numbers::pi_v<float> / static_cast<float>(samples));
-}
-
 /// Keeps the answers of the run's rays.
 void keep_answers(const PackedRays& packed, const Run& run, Verdicts& verdicts) {
     std::uint32_t* const words = &verdicts.words[static_cast<std::size_t>(run.pixel) * verdicts.words_per_pixel];
@@ -380,17 +370,7 @@ void ask_picture(const TileWork& work, Progress& progress) {
 
 EnvironmentResult render_environment(const VisibilityField* field, const EmbreeScene& embree,
                                      const EnvironmentRequest& request, Progress& progress) {
-    const ImageSize size = request.surfaces->size;
-    EnvironmentResult result;
-    result.irradiance = ImageRgb(size);
-    result.radiance = ImageRgb(size);
-    result.rays_traced = Image<std::uint32_t>(size);
-    result.rays_asked = Image<std::uint32_t>(size);
-    result.shadow = ImageScalar(size);
-    if (request.keep_verdicts) {
-        result.verdicts.words_per_pixel = (static_cast<std::uint32_t>(request.pattern->samples) + 31u) / 32u;
-        result.verdicts.words.resize(size.pixels() * result.verdicts.words_per_pixel);
-    }
+    EnvironmentResult result = blank_environment(request);
     ask_picture({field, &embree, request, harmonic_light(request.light), result}, progress);
     result.device =
         "CPU, " + std::to_string(thread_count(request.threads)) + " threads, " + std::to_string(lanes) + " wide";

@@ -81,6 +81,15 @@ struct EnvironmentResult {
 /// The kernels' form of a light.
 HarmonicLight harmonic_light(const Harmonics& harmonics);
 
+/// Sums of the nine polynomials over some directions of a pixel.
+using PixelMoments = std::array<float, 9>;
+
+/// pi / samples times the sum of radiances.
+vec3 irradiance_of(const HarmonicLight& light, const PixelMoments& moments, int samples);
+
+/// A result of the request's size in which nothing was asked yet, with room for verdicts where they are kept.
+EnvironmentResult blank_environment(const EnvironmentRequest& request);
+
 /// Without a field (null) every sample above its surface is traced: the reference, by the same code. The hemisphere is
 /// that of the shading normal.
 EnvironmentResult render_environment(const VisibilityField* field, const EmbreeScene& embree,

@@ -1,6 +1,7 @@
 // What is not hot of a picture: the light's form, and how far two pictures are apart.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "techniques/visibility_field/render.h"
 
@@ -22,6 +23,27 @@ HarmonicLight harmonic_light(const Harmonics& harmonics) {
     light.term[7] = c[6] * static_cast<float>(along(0, 0, 1)[6] / 2.0);
     light.term[8] = c[8] * static_cast<float>(along(1, 0, 0)[8]);
     return light;
+}
+
+vec3 irradiance_of(const HarmonicLight& light, const PixelMoments& moments, int samples) {
+    vec3 sum(0.0f);
+    for (std::size_t k = 0; k < moments.size(); ++k) sum += moments[k] * light.term[k];
+    return sum * (std::numbers::pi_v<float> / static_cast<float>(samples));
+}
+
+EnvironmentResult blank_environment(const EnvironmentRequest& request) {
+    const ImageSize size = request.surfaces->size;
+    EnvironmentResult result;
+    result.irradiance = ImageRgb(size);
+    result.radiance = ImageRgb(size);
+    result.rays_traced = Image<std::uint32_t>(size);
+    result.rays_asked = Image<std::uint32_t>(size);
+    result.shadow = ImageScalar(size);
+    if (request.keep_verdicts) {
+        result.verdicts.words_per_pixel = (static_cast<std::uint32_t>(request.pattern->samples) + 31u) / 32u;
+        result.verdicts.words.resize(size.pixels() * result.verdicts.words_per_pixel);
+    }
+    return result;
 }
 
 IrradianceError compare_irradiance(const EnvironmentResult& ours, const EnvironmentResult& reference,

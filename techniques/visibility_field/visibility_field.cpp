@@ -75,11 +75,6 @@ Choice choice_of(const ParameterValues& chosen, std::string_view name) {
     return static_cast<Choice>(static_cast<int>(value_of(chosen, name)));
 }
 
-void refuse_vulkan(Backend backend) {
-    if (backend == Backend::vulkan)
-        throw InputError("backend", "", "visibility_field does not run on Vulkan", "choose cpu");
-}
-
 std::string cpu_device(int threads) {
     return "CPU, " + std::to_string(thread_count(threads)) + " threads, Embree, packets of 16";
 }
@@ -99,7 +94,6 @@ BakeOptions bake_options(const BuildRequest& request) {
 }
 
 Structure build(const BuildRequest& request, Progress& progress) {
-    refuse_vulkan(request.backend);
     check_parameters(parameters, request.parameters);
     const auto start = std::chrono::steady_clock::now();
     const Scene& scene = *request.scene;
@@ -109,6 +103,8 @@ Structure build(const BuildRequest& request, Progress& progress) {
     built->embree = build_embree_scene(scene, EmbreeUse::benchmark, request.threads, progress);
     built->field = bake(scene, *built->embree, built->options, progress, &built->points);
     if (value_of(request.parameters, "layout") != 0.0) built->dense = to_dense(built->field);
+    if (request.backend == Backend::vulkan)
+        built->on_device = give_to_vulkan(&built->field, *built->embree, request.threads, progress);
     built->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return BuiltFieldPointer(std::move(built));
 }
@@ -175,8 +171,10 @@ void take_over(const EnvironmentResult& from, const SurfaceBuffer& surfaces, Pix
     }
 }
 
-RenderResult render_samples(const VisibilityField* field, const DenseField* dense, const EmbreeScene& embree,
-                            const RenderRequest& request, Progress& progress) {
+/// Makes a picture of the request's samples.
+using Renderer = std::function<EnvironmentResult(const EnvironmentRequest&)>;
+
+RenderResult render_samples(const RenderRequest& request, const DenseField* dense, const Renderer& make) {
     const PatternPointer pattern = pattern_of(request);
     const SurfaceBuffer& surfaces = *request.surfaces;
     RenderResult result = background(request);
@@ -187,24 +185,39 @@ RenderResult render_samples(const VisibilityField* field, const DenseField* dens
             take_over(so_far, surfaces, changed, result);
             request.on_region(result, changed);
         };
-    EnvironmentResult made = render_environment(field, embree, asked, progress);
+    EnvironmentResult made = make(asked);
     take_over(made, surfaces, {0, 0, surfaces.size.width, surfaces.size.height}, result);
     result.verdicts = std::move(made.verdicts);
     result.rays = made.counts.samples - made.counts.below;
     result.rays_traced = made.counts.traced;
     result.seconds = made.seconds;
-    result.device = cpu_device(request.threads);
+    result.device = made.device;
     return result;
 }
 
 RenderResult render(const Structure& structure, const RenderRequest& request, Progress& progress) {
-    refuse_vulkan(request.backend);
     const BuiltField& built = built_field(structure);
-    return render_samples(&built.field, built.dense ? &*built.dense : nullptr, *built.embree, request, progress);
+    if (request.backend == Backend::vulkan) {
+        const std::shared_ptr<const FieldOnDevice> device =
+            built.on_device ? built.on_device : give_to_vulkan(&built.field, *built.embree, request.threads, progress);
+        return render_samples(request, nullptr, [&](const EnvironmentRequest& asked) {
+            return render_on_vulkan(*device, asked, progress);
+        });
+    }
+    RenderResult result =
+        render_samples(request, built.dense ? &*built.dense : nullptr, [&](const EnvironmentRequest& asked) {
+            return render_environment(&built.field, *built.embree, asked, progress);
+        });
+    result.device = cpu_device(request.threads);
+    return result;
 }
 
 RenderResult reference(const EmbreeScene& embree, const RenderRequest& request, Progress& progress) {
-    return render_samples(nullptr, nullptr, embree, request, progress);
+    RenderResult result = render_samples(request, nullptr, [&](const EnvironmentRequest& asked) {
+        return render_environment(nullptr, embree, asked, progress);
+    });
+    result.device = cpu_device(request.threads);
+    return result;
 }
 
 std::vector<Light> lights(const RenderRequest& request, std::size_t pixel) {
@@ -301,7 +314,7 @@ constexpr Technique row{
     render,
     trace,
     statistics,
-    false,
+    true,
     nullptr,
     &environment};
 

@@ -5,6 +5,7 @@
 #include "techniques/technique.h"
 #include "techniques/visibility_field/bake.h"
 #include "techniques/visibility_field/trace.h"
+#include "techniques/visibility_field/vulkan_backend.h"
 
 namespace sightlines::visibility_field {
 
@@ -15,8 +16,9 @@ struct BuiltField {
     VisibilityField field;
     CellPoints points;  ///< that it was baked from
     BakeOptions options;
-    std::shared_ptr<const EmbreeScene> embree;  ///< that answers what the field leaves open
-    std::optional<DenseField> dense;            ///< where the paper's layout is asked for
+    std::shared_ptr<const EmbreeScene> embree;       ///< that answers what the field leaves open
+    std::optional<DenseField> dense;                 ///< where the paper's layout is asked for
+    std::shared_ptr<const FieldOnDevice> on_device;  ///< where it was built for Vulkan
     double build_seconds = 0.0;
 };
 

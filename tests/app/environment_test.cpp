@@ -188,6 +188,38 @@ TEST(EnvironmentProgram, TakesAFileAndIsBrighterWhereThatIs) {
     EXPECT_EQ(report_in(folder)["environment"]["name"], "bright.hdr");
 }
 
+TEST(EnvironmentProgram, PaintsByTheBrightestTexelsThatAFileCanHold) {
+    // RGBE has no signs and no numbers that are not finite; 65504 is the largest of half floats, which many files hold.
+    const fs::path folder = fresh_folder();
+    write_hdr(folder / "half.hdr", {255, 255, 255, 144});
+    write_hdr(folder / "largest.hdr", {255, 255, 255, 255});
+    write_hdr(folder / "least.hdr", {2, 2, 2, 1});
+    const auto bright_pixels = [&](const std::string& file, bool put_right) {
+        const ProgramRun run = rendered(folder, {"--scene", "cornell", "--environment", file, "--reference"});
+        EXPECT_EQ(run.exit_code, 0) << run.errors;
+        EXPECT_EQ(run.errors.find("were put right") != std::string::npos, put_right) << run.errors;
+        EXPECT_TRUE(report_in(folder)["error"]["rmse"].is_number()) << file;
+        const ImageRgba8 picture = read_png(folder / "a.png");
+        return std::ranges::count_if(picture.pixels, [](const auto& pixel) { return pixel.x > 250; });
+    };
+    EXPECT_GT(bright_pixels("half.hdr", false), 300);
+    EXPECT_GT(bright_pixels("largest.hdr", true), 300);
+    EXPECT_LT(bright_pixels("least.hdr", false), 100);  // the lamp
+}
+
+TEST(EnvironmentProgram, PaintsOnVulkanToo) {
+    const ProgramRun devices = run_program({"list", "devices", "--json"}, fresh_folder());
+    if (devices.output.find("name") == std::string::npos) GTEST_SKIP() << "no usable Vulkan device";
+    const fs::path folder = fresh_folder();
+    const ProgramRun run = rendered(folder, {"--scene", "cornell", "--reference", "--backend", "vulkan", "--set",
+                                             "points=40000", "rays_per_point=64"});
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    const Json report = report_in(folder);
+    EXPECT_EQ(report["backend"], "vulkan");
+    EXPECT_LT(report["rays"]["traced"], report["rays"]["asked"]);
+    EXPECT_LT(report["error"]["visibility_percent"].get<double>(), 2.0);
+}
+
 TEST(EnvironmentProgram, RefusesWhatIsNoEnvironmentInOneLine) {
     const fs::path folder = fresh_folder();
     std::ofstream(folder / "text.hdr") << "not a picture";
@@ -203,8 +235,7 @@ TEST(EnvironmentProgram, RefusesWhatIsNoEnvironmentInOneLine) {
                                      {"--sun", "10"},
                                      {"--turn", "far"},
                                      {"--set", "cell_size=0"},
-                                     {"--set", "samples=0"},
-                                     {"--backend", "vulkan"}};
+                                     {"--set", "samples=0"}};
     for (const Arguments& arguments : all) {
         Arguments more{"--scene", "cornell"};
         more.insert(more.end(), arguments.begin(), arguments.end());

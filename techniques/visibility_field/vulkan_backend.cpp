@@ -1,0 +1,247 @@
+#include "techniques/visibility_field/vulkan_backend.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <numbers>
+#include <optional>
+
+#include "shaders/spirv.h"
+#include "shaders/visibility_field_lighting_data.h"
+#include "techniques/compute/buffer.h"
+#include "techniques/compute/dispatch.h"
+#include "techniques/pixel_groups.h"
+#include "techniques/rays/open_rays.h"
+
+namespace sightlines::visibility_field {
+
+struct FieldOnDevice {
+    std::shared_ptr<const compute::Device> device;
+    compute::Buffer bricks, mask_numbers, masks, nodes, triangles, cutouts;
+    compute::Buffer tables;  ///< FieldTables
+    bool has_field = false;
+    std::optional<compute::Pipeline> pipeline;
+    std::optional<compute::BoundTexels> texels;  ///< where the tree is read as texels
+};
+
+namespace {
+
+constexpr std::uint32_t workgroup = 64;             ///< local_size_x of the shader
+constexpr double longest_dispatch_seconds = 0.015;  ///< the window draws on the same device in between
+
+template <class T>
+compute::Buffer on_device(const std::shared_ptr<const compute::Device>& device, const std::vector<T>& values,
+                          const Progress& progress) {
+    const std::uint64_t bytes = std::max<std::uint64_t>(values.size() * sizeof(T), 16);
+    compute::Buffer buffer = compute::make_buffer(device, bytes, compute::MemoryPlace::device);
+    compute::upload(buffer, std::as_bytes(std::span(values)), progress);
+    return buffer;
+}
+
+/// A software device reads an address word by word and ray by ray, but a texel of 16 bytes at once.
+bool reads_texels(const FieldOnDevice& field) {
+    const std::uint64_t largest = std::max({field.nodes.bytes, field.triangles.bytes, field.cutouts.bytes});
+    return field.device->info.kind == compute::DeviceKind::cpu && compute::fits_as_texels(*field.device, largest);
+}
+
+void make_pipeline(FieldOnDevice& field) {
+    const bool texels = reads_texels(field);
+    field.pipeline = compute::make_pipeline(
+        field.device, texels ? spirv::visibility_field_lighting_texels() : spirv::visibility_field_lighting(),
+        sizeof(FieldLightingJob), {}, texels ? 3 : 0);
+    if (!texels) return;
+    const std::array<compute::TexelSource, 3> sources{{{&field.nodes, VK_FORMAT_R32G32B32A32_UINT},
+                                                       {&field.triangles, VK_FORMAT_R32G32B32A32_UINT},
+                                                       {&field.cutouts, VK_FORMAT_R32G32B32A32_UINT}}};
+    field.texels = compute::bind_texels(*field.pipeline, sources);
+}
+
+/// The pieces of the picture that are uploaded and resolved together. A GPU needs more pixels to be busy.
+std::vector<PixelRect> tiles_of(ImageSize size, compute::DeviceKind kind) {
+    const int width = kind == compute::DeviceKind::cpu ? 64 : 512, height = kind == compute::DeviceKind::cpu ? 32 : 256;
+    std::vector<PixelRect> tiles;
+    for (int y = 0; y < size.height; y += height)
+        for (int x = 0; x < size.width; x += width)
+            tiles.push_back({x, y, std::min(width, size.width - x), std::min(height, size.height - y)});
+    return tiles;
+}
+
+std::uint32_t culling_number(const FieldOnDevice& field, Culling culling) {
+    if (!field.has_field) return cull_nothing;
+    return culling == Culling::label ? cull_by_label : culling == Culling::visible ? cull_by_visible : cull_by_both;
+}
+
+/// Memory for asking one tile after another.
+struct TileAsker {
+    const FieldOnDevice& field;
+    const EnvironmentRequest& request;
+    HarmonicLight light;
+    compute::Buffer directions{}, surfaces{}, sums{}, verdicts{};  ///< of one tile but for the directions; mapped
+    FieldLightingJob job{};
+    double pairs_per_second = 2.0e6;  ///< of the last dispatch; at first a guess low enough for any device
+
+    std::span<FieldSums> tile_sums() const {
+        return {reinterpret_cast<FieldSums*>(sums.mapped.data()), sums.bytes / sizeof(FieldSums)};
+    }
+    std::span<std::uint32_t> tile_verdicts() const {
+        return {reinterpret_cast<std::uint32_t*>(verdicts.mapped.data()), verdicts.bytes / sizeof(std::uint32_t)};
+    }
+};
+
+compute::Buffer host_buffer(const FieldOnDevice& field, std::uint64_t bytes) {
+    return compute::make_buffer(field.device, std::max<std::uint64_t>(bytes, 16), compute::MemoryPlace::host);
+}
+
+TileAsker make_asker(const FieldOnDevice& field, const EnvironmentRequest& request, std::size_t most_pixels,
+                     const Progress& progress) {
+    const SamplePattern& pattern = *request.pattern;
+    const auto samples = static_cast<std::uint32_t>(pattern.samples);
+    const std::uint32_t words = request.keep_verdicts ? (samples + 31) / 32 : 0;
+    const std::size_t padded = (most_pixels + workgroup - 1) / workgroup * workgroup;
+    TileAsker asker{field, request, harmonic_light(request.light)};
+    std::vector<vec3> directions;
+    for (std::size_t k = 0; k < samples; ++k) directions.emplace_back(pattern.x[k], pattern.y[k], pattern.z[k]);
+    asker.directions = on_device(field.device, directions, progress);
+    asker.surfaces = host_buffer(field, padded * sizeof(AskingPoint));
+    asker.sums = host_buffer(field, padded * sizeof(FieldSums));
+    asker.verdicts = host_buffer(field, padded * words * sizeof(std::uint32_t));
+    asker.job.field = field.tables.address;
+    asker.job.directions = asker.directions.address;
+    asker.job.surfaces = asker.surfaces.address;
+    asker.job.sums = asker.sums.address;
+    asker.job.verdicts = asker.verdicts.address;
+    asker.job.samples = samples;
+    asker.job.words_per_pixel = words;
+    asker.job.culling = culling_number(field, request.culling);
+    asker.job.subtracts = request.unshadowed == Unshadowed::analytic ? 1 : 0;
+    return asker;
+}
+
+/// Copies the surfaces into mapped memory, padded to whole workgroups with pixels that ask nothing.
+std::uint32_t place_surfaces(const TileAsker& asker, const PixelGroups& pixels) {
+    const SamplePattern& pattern = *asker.request.pattern;
+    const int width = asker.request.surfaces->size.width;
+    const std::size_t padded = (pixels.pixel.size() + workgroup - 1) / workgroup * workgroup;
+    auto* points = reinterpret_cast<AskingPoint*>(asker.surfaces.mapped.data());
+    for (std::size_t k = 0; k < padded; ++k) {
+        points[k] = {};
+        if (k >= pixels.pixel.size() || pixels.pixel[k] == no_triangle) continue;
+        const auto pixel = static_cast<int>(pixels.pixel[k]);
+        const vec2 turn = pattern.turns[pattern.tile_place(pixel % width, pixel / width)];
+        for (int axis = 0; axis < 3; ++axis) {
+            points[k].position[axis] = pixels.position[axis][k];
+            points[k].normal[axis] = pixels.normal[axis][k];
+            points[k].shading_normal[axis] = pixels.shading_normal[axis][k];
+        }
+        points[k].turn_cosine = turn.x;
+        points[k].turn_sine = turn.y;
+    }
+    return static_cast<std::uint32_t>(padded);
+}
+
+/// Asks all samples of the tile's pixels, in dispatches short enough for others to use the device in between. Where the
+/// samples are cut does not change the result: each pixel's sums go on where they were left.
+void ask_tile(TileAsker& asker, const PixelGroups& pixels, const Progress& progress) {
+    const std::uint32_t count = place_surfaces(asker, pixels);
+    std::ranges::fill(asker.tile_verdicts(), 0u);
+    asker.job.first_sample = 0;
+    while (asker.job.first_sample < asker.job.samples) {
+        progress.check();
+        const double fitting = asker.pairs_per_second * longest_dispatch_seconds / count;
+        const auto step = static_cast<std::uint32_t>(std::clamp(fitting, 1.0, 4096.0));
+        asker.job.end_sample = std::min(asker.job.first_sample + step, asker.job.samples);
+        const double seconds =
+            compute::dispatch(*asker.field.pipeline, std::as_bytes(std::span(&asker.job, 1)), {count / workgroup, 1, 1},
+                              asker.field.texels ? &*asker.field.texels : nullptr);
+        const double pairs = static_cast<double>(count) * (asker.job.end_sample - asker.job.first_sample);
+        asker.pairs_per_second = pairs / std::max(seconds, 1.0e-6);
+        asker.job.first_sample = asker.job.end_sample;
+    }
+}
+
+void count(const FieldSums& sums, std::uint32_t samples, SampleCounts& counts) {
+    counts.samples += samples;
+    counts.below += samples - sums.asked;
+    counts.traced += sums.traced;
+    counts.traced_blocked += sums.traced_blocked;
+    if (sums.outside != 0) counts.outside += sums.traced;
+}
+
+/// Puts a tile's sums into the picture.
+void resolve(const TileAsker& asker, const PixelGroups& pixels, EnvironmentResult& result) {
+    const SurfaceBuffer& surfaces = *asker.request.surfaces;
+    const std::size_t words = asker.job.words_per_pixel;
+    for (std::size_t k = 0; k < pixels.pixel.size(); ++k) {
+        if (pixels.pixel[k] == no_triangle) continue;
+        const std::size_t pixel = pixels.pixel[k];
+        const FieldSums& sums = asker.tile_sums()[k];
+        PixelMoments moments;
+        std::ranges::copy(sums.moment, moments.begin());
+        vec3 irradiance = irradiance_of(asker.light, moments, asker.request.pattern->samples);
+        if (sums.subtracts != 0)
+            irradiance += sightlines::irradiance(asker.request.light, surfaces.shading_normal[pixel]);
+        result.irradiance.pixels[pixel] = irradiance;
+        result.radiance.pixels[pixel] =
+            surfaces.emission[pixel] + surfaces.albedo[pixel] * std::numbers::inv_pi_v<float> * irradiance;
+        result.rays_traced.pixels[pixel] = sums.traced;
+        result.rays_asked.pixels[pixel] = sums.asked;
+        result.shadow.pixels[pixel] =
+            static_cast<float>(sums.blocked) / static_cast<float>(std::max<std::uint32_t>(sums.asked, 1));
+        if (words > 0)
+            std::ranges::copy(asker.tile_verdicts().subspan(k * words, words), &result.verdicts.words[pixel * words]);
+        count(sums, asker.job.samples, result.counts);
+    }
+}
+
+}  // namespace
+
+std::shared_ptr<const FieldOnDevice> give_to_vulkan(const VisibilityField* field, const EmbreeScene& embree,
+                                                    int threads, Progress& progress) {
+    const RayTree tree = build_ray_tree(embree, threads, progress);
+    auto made = std::make_shared<FieldOnDevice>();
+    made->device = compute::open_device();
+    made->has_field = field != nullptr;
+    const VisibilityField nothing;
+    const VisibilityField& given = field != nullptr ? *field : nothing;
+    made->bricks = on_device(made->device, given.bricks, progress);
+    made->mask_numbers = on_device(made->device, given.mask_numbers, progress);
+    made->masks = on_device(made->device, given.masks, progress);
+    made->nodes = on_device(made->device, tree.nodes, progress);
+    made->triangles = on_device(made->device, tree.triangles, progress);
+    made->cutouts = on_device(made->device, tree.cutouts, progress);
+    const float surface_offset_m = lifted_off(embree, vec3(0.0f), vec3(1.0f, 0.0f, 0.0f)).x;
+    const FieldTables tables{given.shape,           made->bricks.address, made->mask_numbers.address,
+                             made->masks.address,   made->nodes.address,  made->triangles.address,
+                             made->cutouts.address, tree.node_count(),    surface_offset_m};
+    made->tables = on_device(made->device, std::vector<FieldTables>{tables}, progress);
+    make_pipeline(*made);
+    return made;
+}
+
+EnvironmentResult render_on_vulkan(const FieldOnDevice& field, const EnvironmentRequest& request, Progress& progress) {
+    const ImageSize size = request.surfaces->size;
+    EnvironmentResult result = blank_environment(request);
+    std::vector<PixelRect> tiles = tiles_of(size, field.device->info.kind);
+    if (request.reverse_tiles) std::ranges::reverse(tiles);
+    std::size_t most_pixels = 0;
+    for (const PixelRect& tile : tiles)
+        most_pixels =
+            std::max(most_pixels, static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
+    progress.begin("asking the environment", static_cast<std::int64_t>(tiles.size()));
+    const auto start = std::chrono::steady_clock::now();
+    TileAsker asker = make_asker(field, request, most_pixels + pixel_group_size, progress);
+    for (const PixelRect& tile : tiles) {
+        const PixelGroups pixels = group_pixels(*request.surfaces, tile, 1, 0);
+        if (!pixels.pixel.empty()) {
+            ask_tile(asker, pixels, progress);
+            resolve(asker, pixels, result);
+        }
+        if (request.on_region) request.on_region(result, tile);
+        progress.advance();
+    }
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.device = field.device->info.name;
+    return result;
+}
+
+}  // namespace sightlines::visibility_field

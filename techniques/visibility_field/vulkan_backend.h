@@ -1,0 +1,22 @@
+// Algorithm 2 on a Vulkan device, by the GLSL compilation of the kernels.
+#pragma once
+
+#include <memory>
+
+#include "techniques/rays/ray_tree.h"
+#include "techniques/visibility_field/render.h"
+
+namespace sightlines::visibility_field {
+
+struct FieldOnDevice;  // hides Vulkan's handles; shared between threads
+
+/// Copies the field (null: none, every sample is traced) and a tree over the scene's triangles to the preferred device.
+/// EnvironmentError: no device, or out of memory.
+std::shared_ptr<const FieldOnDevice> give_to_vulkan(const VisibilityField* field, const EmbreeScene& embree,
+                                                    int threads, Progress& progress);
+
+/// The picture of render_environment, by the same samples and masks. Answers differ where rays graze triangles, and
+/// sums by rounding. request.dense and request.order are not looked at: the answers are the same in any layout.
+EnvironmentResult render_on_vulkan(const FieldOnDevice& field, const EnvironmentRequest& request, Progress& progress);
+
+}  // namespace sightlines::visibility_field

@@ -1,0 +1,140 @@
+// The Vulkan backend against the CPU backend: the same samples and masks, hence the same answers but for rays that
+// graze.
+#include "techniques/visibility_field/vulkan_backend.h"
+
+#include <bit>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "techniques/compute/device.h"
+#include "techniques/scene/harmonics.h"
+#include "tests/visibility_field/scenes.h"
+
+namespace sightlines::visibility_field {
+namespace {
+
+#define NEEDS_VULKAN                                                                       \
+    if (compute::list_devices().empty() || !compute::list_devices().front().lacks.empty()) \
+    GTEST_SKIP() << "no usable Vulkan device"
+
+/// The courtyard, a field of it on both backends, and what is asked.
+struct Case {
+    Progress progress;
+    Scene scene = testing::courtyard();
+    std::shared_ptr<const EmbreeScene> embree = test::built(scene);
+    SurfaceBuffer surfaces;
+    SamplePattern pattern;
+    VisibilityField field;
+    std::shared_ptr<const FieldOnDevice> device;
+    EnvironmentRequest request;
+
+    explicit Case(int samples = 40, bool with_field = true)
+        : surfaces(test::seen(scene, *embree, testing::courtyard_camera(), {75, 43})),
+          pattern(make_pattern(samples, 1)),
+          field(testing::baked(scene, *embree, testing::small_bake())),
+          device(give_to_vulkan(with_field ? &field : nullptr, *embree, 2, progress)) {
+        request.surfaces = &surfaces;
+        request.pattern = &pattern;
+        request.light.coefficient = {vec3(3.0f, 3.2f, 3.5f),
+                                     vec3(1.2f),
+                                     vec3(-0.4f),
+                                     vec3(0.5f, 0.4f, 0.1f),
+                                     vec3(0.2f),
+                                     vec3(-0.1f),
+                                     vec3(0.3f),
+                                     vec3(0.15f),
+                                     vec3(-0.2f)};
+        request.threads = 2;
+        request.keep_verdicts = true;
+    }
+    EnvironmentResult on_vulkan() { return render_on_vulkan(*device, request, progress); }
+    EnvironmentResult on_cpu(bool with_field = true) {
+        return render_environment(with_field ? &field : nullptr, *embree, request, progress);
+    }
+};
+
+/// At most one answer in 50,000 differs; pixels without such rays differ by rounding.
+void expect_alike(const Case& asked, const EnvironmentResult& cpu, const EnvironmentResult& vulkan) {
+    std::uint64_t differing = 0, alike = 0;
+    for (std::size_t p = 0; p < asked.surfaces.size.pixels(); ++p) {
+        std::uint64_t differing_here = 0;
+        for (std::size_t w = 0; w < cpu.verdicts.words_per_pixel; ++w) {
+            const std::size_t at = p * cpu.verdicts.words_per_pixel + w;
+            differing_here +=
+                static_cast<std::uint64_t>(std::popcount(cpu.verdicts.words[at] ^ vulkan.verdicts.words[at]));
+        }
+        differing += differing_here;
+        if (differing_here > 0 || asked.surfaces.triangle[p] == no_triangle) continue;
+        ++alike;
+        ASSERT_LT(glm::distance(cpu.irradiance.pixels[p], vulkan.irradiance.pixels[p]), 2e-5f) << p;
+        ASSERT_LT(glm::distance(cpu.radiance.pixels[p], vulkan.radiance.pixels[p]), 1e-5f) << p;
+        ASSERT_FLOAT_EQ(cpu.shadow.pixels[p], vulkan.shadow.pixels[p]) << p;
+    }
+    EXPECT_LE(differing, cpu.counts.samples / 50'000);
+    EXPECT_GT(alike, 1500u);
+    EXPECT_EQ(cpu.counts.samples, vulkan.counts.samples);
+    // A direction along the surface or between two texels may fall to either side.
+    const auto near = [&](std::uint64_t a, std::uint64_t b) {
+        EXPECT_NEAR(static_cast<double>(a), static_cast<double>(b), static_cast<double>(cpu.counts.samples) / 20'000);
+    };
+    near(cpu.counts.below, vulkan.counts.below);
+    near(cpu.counts.traced, vulkan.counts.traced);
+    near(cpu.counts.traced_blocked, vulkan.counts.traced_blocked);
+    near(cpu.counts.outside, vulkan.counts.outside);
+}
+
+TEST(FieldOnVulkan, AgreesWithTheCpuHoweverRaysAreCulled) {
+    NEEDS_VULKAN;
+    Case asked;
+    for (const Culling culling : {Culling::label, Culling::visible, Culling::both})
+        for (const Unshadowed unshadowed : {Unshadowed::analytic, Unshadowed::sampled}) {
+            asked.request.culling = culling;
+            asked.request.unshadowed = unshadowed;
+            const EnvironmentResult cpu = asked.on_cpu(), vulkan = asked.on_vulkan();
+            EXPECT_LT(cpu.counts.traced, cpu.counts.samples * 9 / 10);
+            expect_alike(asked, cpu, vulkan);
+        }
+}
+
+TEST(FieldOnVulkan, AgreesWithTheCpuOnSamplesOfAnyNumber) {
+    NEEDS_VULKAN;
+    for (const int samples : {1, 31, 32, 100}) {
+        Case asked(samples);
+        expect_alike(asked, asked.on_cpu(), asked.on_vulkan());
+    }
+}
+
+TEST(FieldOnVulkan, TracesAllSamplesWithoutAField) {
+    NEEDS_VULKAN;
+    Case asked(40, false);
+    const EnvironmentResult vulkan = asked.on_vulkan();
+    EXPECT_EQ(vulkan.counts.traced, vulkan.counts.samples - vulkan.counts.below);
+    expect_alike(asked, asked.on_cpu(false), vulkan);
+}
+
+TEST(FieldOnVulkan, GivesTheSamePixelsInAnyOrderOfTilesAndTellsOfEach) {
+    NEEDS_VULKAN;
+    Case asked;
+    const EnvironmentResult once = asked.on_vulkan();
+    asked.request.reverse_tiles = true;
+    std::size_t reported = 0;
+    asked.request.on_region = [&](const EnvironmentResult&, PixelRect changed) {
+        reported += static_cast<std::size_t>(changed.width) * static_cast<std::size_t>(changed.height);
+    };
+    const EnvironmentResult again = asked.on_vulkan();
+    EXPECT_EQ(once.irradiance, again.irradiance);
+    EXPECT_EQ(once.verdicts.words, again.verdicts.words);
+    EXPECT_EQ(once.counts, again.counts);
+    EXPECT_EQ(reported, asked.surfaces.size.pixels());
+}
+
+TEST(FieldOnVulkan, StopsWhenCancelled) {
+    NEEDS_VULKAN;
+    Case asked;
+    asked.progress.cancel();
+    EXPECT_THROW(asked.on_vulkan(), Cancelled);
+}
+
+}  // namespace
+}  // namespace sightlines::visibility_field
