@@ -128,7 +128,11 @@ std::span<const FigureRow> figures() {
             "dictionary", "Dictionary", "voxel_rows", true,
             "The ray's row and the one that stands for it, bit under bit and in space; the dictionary in charts."},
         FigureRow{"ray", "Ray in the scene", "", false,
-                  "The scene cut open along the ray, what each step touched, and the maps that were looked up."}};
+                  "The scene cut open along the ray, what each step touched, and the maps that were looked up."},
+        FigureRow{"merging", "Merging of masks", "visibility_field", false,
+                  "A cell's point samples in space, what the latest sees by itself, and all so far together."},
+        FigureRow{"atlas", "Layer of the atlas", "visibility_field", false,
+                  "A layer of cells in space, and as the paper lays their masks out, a byte a texel."}};
     return rows;
 }
 
@@ -145,6 +149,8 @@ const FigureRow& find_figure(std::string_view name) {
     throw InputError("figure " + std::string(name), "", "is not known",
                      near.empty() ? "there are: " + all : "did you mean " + near + "?");
 }
+
+bool shows_cells(const Session& session) { return session.technique == "visibility_field"; }
 
 bool can_show(const FigureRow& figure, const Session& session) {
     if (!figure.technique.empty() && session.technique != figure.technique) return false;
@@ -201,9 +207,9 @@ DictionaryPicture dictionary_picture(const Session& session, const SelectedRay& 
 
 InsidePicture inside_picture(const Session& session, const SelectedRay& ray, Results& results, Progress& progress,
                              UnpackedVoxels& unpacked) {
-    if (shown_figure(session) == "ray") return ray_picture(session, ray, results, progress, unpacked);
     if (shown_figure(session) == "dictionary") return dictionary_picture(session, ray, results, progress, unpacked);
-    return voxel_row_picture(session, ray, results, progress, unpacked);
+    if (shown_figure(session) == "voxel-row") return voxel_row_picture(session, ray, results, progress, unpacked);
+    return ray_picture(session, ray, results, progress, unpacked);
 }
 
 ViewState view_state(const Session& session, std::string_view figure) {

@@ -26,6 +26,9 @@ std::span<const FigureRow> figures();
 /// InputError offers the nearest name.
 const FigureRow& find_figure(std::string_view name);
 
+/// Whether what is shown depends on the cell that is picked in the view (selection.voxel).
+bool shows_cells(const Session& session);
+
 /// Whether the session's technique, with its parameters, has what the figure shows.
 bool can_show(const FigureRow& figure, const Session& session);
 

@@ -102,6 +102,7 @@ constexpr auto describe_view = [](auto& fields, auto& view) {
     fields.number("slab_voxels", view.state.slab_voxels, 1, 1024);
     fields.number("slice_first", view.state.slice_first, 0, 1023);
     fields.number("slice_last", view.state.slice_last, 0, 1023);
+    fields.number("merged_samples", view.state.merged_samples, 1, most_merged_samples);
 };
 
 constexpr auto describe_display = [](auto& fields, auto& display) {

@@ -9,6 +9,7 @@
 #include "visualizers/bit_strip.h"
 #include "visualizers/dictionary_panel.h"
 #include "visualizers/lit_marks.h"
+#include "visualizers/mask_merging.h"
 #include "visualizers/theme.h"
 #include "visualizers/voxel_row_marks.h"
 #include "visualizers/vtk_export.h"
@@ -144,9 +145,10 @@ std::vector<std::uint8_t> dictionary_figure(VoxelRowView& view, const Dictionary
     return finished_file(page.canvas);
 }
 
-std::vector<std::uint8_t> ray_figure(RayView& view, const RayPicture& picture, const ViewState& state,
+std::vector<std::uint8_t> ray_figure(RayView& view, const RayPicture& whole, const ViewState& state,
                                      CanvasFormat format, const FigureOptions& options) {
     check_options(options);
+    const RayPicture picture = merged_until(whole, state.merged_samples);
     const float width = page_width(options);
     Page page = make_page(format, state, options, 0.54f, map_panel_height(picture, {width, width}, text_height));
     draw_solid(page, view, picture, state);

@@ -5,6 +5,7 @@
 #include "visualizers/canvas.h"
 #include "visualizers/dictionary_panel.h"
 #include "visualizers/lit_marks.h"
+#include "visualizers/mask_merging.h"
 #include "visualizers/raster.h"
 #include "visualizers/theme.h"
 #include "visualizers/view_camera.h"
@@ -121,14 +122,20 @@ OrbitCamera shown_camera(const InsidePicture& picture, const ViewState& state, I
     return shown_camera(*rows_in_space(picture), state, in_space);
 }
 
+InsidePicture at_state(const InsidePicture& picture, const ViewState& state) {
+    const auto* const ray = std::get_if<RayPicture>(&picture);
+    return ray != nullptr ? merged_until(*ray, state.merged_samples) : picture;
+}
+
 bool same_solid(const InsidePicture& a, const InsidePicture& b) {
     if (a.index() != b.index()) return false;
     if (const auto* ray = std::get_if<RayPicture>(&a)) return is_same_solid(*ray, std::get<RayPicture>(b));
     return is_same_solid(*rows_in_space(a), *rows_in_space(b));
 }
 
-ImageRgba8 render(InsideView& view, const InsidePicture& picture, const ViewState& state, const LitGeometry& lit,
+ImageRgba8 render(InsideView& view, const InsidePicture& whole, const ViewState& state, const LitGeometry& lit,
                   ImageSize size, int samples_per_axis, float text_scale) {
+    const InsidePicture picture = at_state(whole, state);
     const auto* dictionary = std::get_if<DictionaryPicture>(&picture);
     const ImageSize in_space = size_in_space(picture, size, text_scale);
     Canvas canvas = make_picture_canvas(solid_part(view, picture, state, in_space, samples_per_axis));
@@ -168,8 +175,11 @@ PickedInside pick(const InsidePicture& picture, const ViewState& state, std::spa
     PickedInside picked;
     picked.geometry = nearest_geometry(camera, recorded, pixel);
     if (!picked.geometry.empty()) return picked;
+    if (const auto* ray = std::get_if<RayPicture>(&picture)) {
+        picked.voxel = pick(*ray, state, in_space, pixel);
+        return picked;
+    }
     const VoxelRowPicture* const rows = rows_in_space(picture);
-    if (rows == nullptr) return picked;
     picked.voxel = pick(*rows, state, in_space, pixel);
     if (picked.voxel) picked.geometry = geometry_of_voxel(*rows, *picked.voxel);
     return picked;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include <vtkPlane.h>
 #include <vtkRenderer.h>
@@ -46,6 +48,14 @@ vec3 direction_of(const Segment& ray) {
     return length > 0.0f ? along / length : vec3(1.0f, 0.0f, 0.0f);
 }
 
+std::vector<vec3> corners_of(const Box3& box) {
+    std::vector<vec3> corners;
+    for (int k = 0; k < 8; ++k)
+        corners.push_back({(k & 1) != 0 ? box.highest.x : box.lowest.x, (k & 2) != 0 ? box.highest.y : box.lowest.y,
+                           (k & 4) != 0 ? box.highest.z : box.lowest.z});
+    return corners;
+}
+
 /// The plane along the ray that faces the camera most, of twelve: so turning the view seldom makes anything anew.
 CutPlane cut_along(const RayPicture& picture, vec3 forward) {
     const vec3 along = direction_of(picture.ray), across = any_across(along), third = glm::cross(along, across);
@@ -59,12 +69,15 @@ CutPlane cut_along(const RayPicture& picture, vec3 forward) {
     return best;
 }
 
-/// All cells, or those whose middle is on the kept side.
+/// Whether a cell is drawn: any where all are, or those whose middle is beyond the plane.
+bool is_kept(const ValuedBox& cell, const CutPlane& cut, bool all) {
+    return all || glm::dot(cell.box.centre() - cut.origin, cut.normal) >= 0.0f;
+}
+
 ColouredTriangles kept_boxes(const RayPicture& picture, const CutPlane& cut, bool all, const Palette& colours) {
     std::vector<ColouredBox> kept;
     for (const ValuedBox& each : *picture.boxes)
-        if (all || glm::dot(each.box.centre() - cut.origin, cut.normal) >= 0.0f)
-            kept.push_back({each.box, glm::mix(colours.voxel, colours.set_bit, each.value)});
+        if (is_kept(each, cut, all)) kept.push_back({each.box, glm::mix(colours.voxel, colours.set_bit, each.value)});
     return box_triangles(kept);
 }
 
@@ -120,7 +133,7 @@ void draw_key(Sheet& sheet, const RayPicture& picture, const ViewState& state) {
 
 /// A map's texels as a picture, the row 0 at the top.
 ImageRgba8 map_pixels(const PictureMap& map, const Palette& colours) {
-    ImageRgba8 pixels({map.side, map.side}, {0, 0, 0, 255});
+    ImageRgba8 pixels({map.size.x, map.size.y}, {0, 0, 0, 255});
     for (std::size_t k = 0; k < map.values.size(); ++k) {
         const vec3 colour = 255.0f * glm::mix(colours.ghost, colours.ray, glm::clamp(map.values[k], 0.0f, 1.0f));
         pixels.pixels[k] = {static_cast<std::uint8_t>(colour.x), static_cast<std::uint8_t>(colour.y),
@@ -141,27 +154,33 @@ ImageRgba8 enlarged(const ImageRgba8& from, int times) {
     return to;
 }
 
-void draw_map(Canvas& canvas, const PictureMap& map, const Palette& colours, vec2 corner, float side, float em) {
+/// Texels keep their shape: `texel` pixels wide and high.
+void draw_map(Canvas& canvas, const PictureMap& map, const Palette& colours, vec2 corner, float texel, float em) {
+    const Rectangle frame{corner + vec2(0.0f, 1.5f * em), texel * vec2(map.size)};
     draw_text(canvas, corner + vec2(0.0f, 0.9f * em), map.title,
               {.height = em, .colour = map.asked ? colours.ink : colours.muted, .bold = map.asked.has_value()});
-    const Rectangle square{corner + vec2(0.0f, 1.5f * em), vec2(side)};
-    const int times = std::max(1, static_cast<int>(std::ceil(3.0f * side / static_cast<float>(map.side))));
-    draw_picture(canvas, square, enlarged(map_pixels(map, colours), times));
-    draw_rectangle(canvas, square, {.colour = colours.hairline, .width = 0.08f * em});
+    const int times = std::max(1, static_cast<int>(std::ceil(std::min(3.0f * texel, 4096.0f / frame.size.x))));
+    draw_picture(canvas, frame, enlarged(map_pixels(map, colours), times));
+    draw_rectangle(canvas, frame, {.colour = colours.hairline, .width = 0.08f * em});
     if (!map.asked) return;
-    const float texel = side / static_cast<float>(map.side);
-    const vec2 middle = square.corner + texel * (vec2(*map.asked) + 0.5f);
-    const float reach = std::max(0.5f * texel, 0.25f * em);
+    const float extent = static_cast<float>(map.asked_side);
+    const vec2 middle = frame.corner + texel * (vec2(*map.asked) + 0.5f * extent);
+    const float reach = std::max(0.5f * extent * texel, 0.25f * em);
     draw_rectangle(canvas, {middle - reach, vec2(2.0f * reach)}, {.colour = colours.page, .width = 0.3f * em});
     draw_rectangle(canvas, {middle - reach, vec2(2.0f * reach)}, {.colour = colours.pointed, .width = 0.15f * em});
 }
 
 constexpr float map_gap_em = 1.2f, map_frame_em = 3.6f;  ///< between maps; above and below them
+constexpr float most_map_em = 54.0f;                     ///< a map's height, of a panel with the whole height
 
-/// Side by side, at most as large as is of use.
-float map_side(const RayPicture& picture, vec2 size, float em) {
+/// Side by side, at most as high as is of use.
+float map_height(const RayPicture& picture, vec2 size, float em) {
     const auto count = static_cast<float>(picture.maps.size());
-    return std::min({(size.x - map_gap_em * em * (count + 1.0f)) / count, 0.3f * size.y, 16.0f * em});
+    float aspects = 0.0f;
+    for (const PictureMap& map : picture.maps)
+        aspects += static_cast<float>(map.size.x) / static_cast<float>(map.size.y);
+    return std::min({(size.x - map_gap_em * em * (count + 1.0f)) / aspects, picture.maps_share * size.y,
+                     picture.maps_share * most_map_em * em});
 }
 
 }  // namespace
@@ -198,7 +217,12 @@ OrbitCamera shown_camera(const RayPicture& picture, const ViewState& state, Imag
     const float across_deg = upright ? 0.0f : glm::degrees(std::atan2(-along.z, along.x));
     camera.azimuth_deg = std::remainder(across_deg - 14.0f, 360.0f);
     camera.elevation_deg = 24.0f;
-    const std::array points{ray.origin, ray.target};
+    std::vector<vec3> points{ray.origin, ray.target};
+    if (picture.focus) {
+        points = corners_of(*picture.focus);
+        camera.focal_point = picture.focus->centre();
+        camera.elevation_deg = 38.0f;
+    }
     camera.distance_m =
         std::max(fitting_distance_m(view_camera(camera, size), camera.focal_point, points, {0.7f, 0.6f}), 1e-2f);
     return camera;
@@ -212,7 +236,7 @@ ImageRgba8 render_solid(RayView& view, const RayPicture& picture, const ViewStat
     const CutPlane cut = cut_along(picture, camera.forward);
     const Palette colours = palette(state.theme);
     const bool has_scene = picture.scene && !picture.scene->triangles.empty();
-    const bool whole = state.cut_away == CutAway::none;
+    const bool whole = state.cut_away == CutAway::none || picture.boxes_whole;
     keep_made(objects.scene, state.scene && has_scene,
               MadeFrom{.content = picture.scene, .cut = cut, .theme = state.theme},
               [&] { return ghost_triangles(*picture.scene, cut, colours); });
@@ -241,6 +265,8 @@ void draw_ray_marks(Canvas& canvas, const RayPicture& picture, const ViewState& 
             for_each_edge(geometry.points, [&](vec3 from, vec3 to) { draw_world_line(sheet, from, to, thin); });
         if (geometry.shape == TraceShape::segment) draw_world_line(sheet, geometry.points[0], geometry.points[1], thin);
     }
+    draw_lit(canvas, sheet.camera, picture.marked, sheet.colours, text_scale, Emphasis::step);
+    draw_lit(canvas, sheet.camera, picture.pointed, sheet.colours, text_scale, Emphasis::pointed);
     if (state.ray) draw_ray(sheet, picture.ray);
     if (!state.labels) return;
     draw_key(sheet, picture, state);
@@ -252,19 +278,42 @@ void draw_ray_marks(Canvas& canvas, const RayPicture& picture, const ViewState& 
 
 float map_panel_height(const RayPicture& picture, vec2 size, float text_height) {
     if (picture.maps.empty()) return 0.0f;
-    const float side = map_side(picture, size, text_height);
-    return side < 3.0f * text_height ? 0.0f : side + map_frame_em * text_height;
+    const float height = map_height(picture, size, text_height);
+    return height < 3.0f * text_height ? 0.0f : height + map_frame_em * text_height;
 }
 
 void draw_map_panel(Canvas& canvas, const RayPicture& picture, const ViewState& state, const Rectangle& where,
                     float text_height) {
     const Palette colours = palette(state.theme);
-    const float side = where.size.y - map_frame_em * text_height, gap = map_gap_em * text_height;
+    const float height = where.size.y - map_frame_em * text_height, gap = map_gap_em * text_height;
     vec2 corner = where.corner + vec2(gap, text_height);
     for (const PictureMap& map : picture.maps) {
-        draw_map(canvas, map, colours, corner, side, text_height);
-        corner.x += side + gap;
+        const float texel = height / static_cast<float>(map.size.y);
+        draw_map(canvas, map, colours, corner, texel, text_height);
+        corner.x += texel * static_cast<float>(map.size.x) + gap;
     }
+}
+
+std::optional<ivec3> pick(const RayPicture& picture, const ViewState& state, ImageSize size, vec2 pixel) {
+    if (!picture.boxes || !state.voxels) return std::nullopt;
+    const ViewCamera camera = view_camera(shown_camera(picture, state, size), size);
+    const CutPlane cut = cut_along(picture, camera.forward);
+    const bool whole = state.cut_away == CutAway::none || picture.boxes_whole;
+    const vec3 direction = direction_through(camera, pixel);
+    std::optional<ivec3> picked;
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const ValuedBox& each : *picture.boxes) {
+        if (!is_kept(each, cut, whole)) continue;
+        // Where the line of sight is between each pair of opposite faces.
+        const vec3 a = (each.box.lowest - camera.position) / direction,
+                   b = (each.box.highest - camera.position) / direction;
+        const vec3 near = glm::min(a, b), far = glm::max(a, b);
+        const float enters = std::max({near.x, near.y, near.z, 0.0f}), leaves = std::min({far.x, far.y, far.z});
+        if (enters > leaves || enters >= nearest) continue;
+        nearest = enters;
+        picked = each.place;
+    }
+    return picked;
 }
 
 }  // namespace sightlines

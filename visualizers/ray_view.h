@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "visualizers/canvas.h"
 #include "visualizers/ray_picture.h"
@@ -38,5 +39,8 @@ float map_panel_height(const RayPicture& picture, vec2 size, float text_height);
 /// The maps side by side in `where`.
 void draw_map_panel(Canvas& canvas, const RayPicture& picture, const ViewState& state, const Rectangle& where,
                     float text_height);
+
+/// The place of the nearest cell under a pixel of the part in space.
+std::optional<ivec3> pick(const RayPicture& picture, const ViewState& state, ImageSize size, vec2 pixel);
 
 }  // namespace sightlines

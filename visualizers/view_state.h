@@ -29,6 +29,8 @@ enum class CutAway {
     to_row,  ///< those on the camera's side of the row are taken away, and those beyond a slab behind it
 };
 
+constexpr int most_merged_samples = 10'000'000;
+
 /// What is shown and how. The default is the figure as it is meant: framed automatically, cut open along the row.
 struct ViewState {
     std::optional<OrbitCamera> camera;  ///< none: framed automatically, the row across the picture
@@ -44,6 +46,7 @@ struct ViewState {
     int slab_voxels = 10;   ///< how many layers of voxels stay behind the row, at least 1
     int slice_first = 0;    ///< voxels with slice_first <= u <= slice_last are drawn (the row always is)
     int slice_last = 1023;  ///< clamped to the resolution
+    int merged_samples = most_merged_samples;  ///< of a cell's point samples, those merged so far; clamped to them
 
     bool operator==(const ViewState&) const = default;
 };

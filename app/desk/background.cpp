@@ -51,6 +51,7 @@ Session rays_key(const Session& session, bool light) {
     key.selection.pixel = session.selection.pixel;
     if (!light) return key;
     key.selection.light = session.selection.light;
+    if (shows_cells(session)) key.selection.voxel = session.selection.voxel;
     key.views = {View{std::string(shown_figure(session)), {}}};  // whose picture is taken out of the structure
     return key;
 }

@@ -84,6 +84,22 @@ void draw_ray_options(Frame& frame, ViewState& state) {
     toggle_cut(frame, state, "Cells behind the ray only");
 }
 
+/// Steps through the merging of the cell's point samples.
+void draw_merging_options(Frame& frame, ViewState& state) {
+    const auto* const ray = frame.shown.inside ? std::get_if<RayPicture>(frame.shown.inside.get()) : nullptr;
+    if (ray == nullptr || !ray->samples || ray->samples->empty()) return;
+    const int all = static_cast<int>(ray->samples->size());
+    int merged = std::min(state.merged_samples, all);
+    ImGui::SetNextItemWidth(200.0f * frame.scale);
+    if (ImGui::SliderInt("##merged", &merged, 1, all, "sample %d", ImGuiSliderFlags_AlwaysClamp))
+        state.merged_samples = merged;
+    tooltip(frame, "How many of the cell's point samples are merged");
+    ImGui::SameLine();
+    if (ImGui::ArrowButton("##before", ImGuiDir_Left)) state.merged_samples = std::max(merged - 1, 1);
+    ImGui::SameLine();
+    if (ImGui::ArrowButton("##next", ImGuiDir_Right)) state.merged_samples = std::min(merged + 1, all);
+}
+
 void draw_row_options(Frame& frame, ViewState& state) {
     toggle(frame, "Scene, ghosted", state.scene);
     toggle(frame, "Voxels", state.voxels);
@@ -115,10 +131,12 @@ void draw_options(Frame& frame) {
         std::ranges::count_if(figures(), [&](const FigureRow& figure) { return can_show(figure, frame.next); }) > 1;
     if (has_choice) draw_figure_choice(frame);
     ViewState state = inside_state(frame.next);
-    if (shown_figure(frame.next) == "ray")
-        draw_ray_options(frame, state);
-    else
+    if (find_figure(shown_figure(frame.next)).technique == "voxel_rows") {
         draw_row_options(frame, state);
+    } else {
+        draw_ray_options(frame, state);
+        draw_merging_options(frame, state);
+    }
     if (ImGui::IsAnyItemActive()) frame.in_gesture = true;
     set_inside_state(frame.next, state);
 }

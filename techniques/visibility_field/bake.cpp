@@ -150,12 +150,8 @@ VisibilityField bake(const Scene& scene, const EmbreeScene& embree, const BakeOp
     return field;
 }
 
-CellSteps bake_steps(const Scene& scene, const EmbreeScene& embree, const BakeOptions& options, ivec3 place,
-                     Progress& progress) {
-    check_options(options);
-    require_memory(scene.bounds, sampled_area(scene), scene.triangles.size(), options, available_memory_bytes());
-    const FieldShape shape = make_shape(scene.bounds, options.cell_m, options.mask_size);
-    const CellPoints all = place_points(scene, shape, options, progress);
+CellSteps bake_steps(const CellPoints& all, const FieldShape& shape, const EmbreeScene& embree,
+                     const BakeOptions& options, ivec3 place) {
     CellSteps steps;
     const auto found = std::ranges::lower_bound(all.cells, cell_number(shape, place));
     if (found == all.cells.end() || *found != cell_number(shape, place)) return steps;
@@ -178,6 +174,14 @@ CellSteps bake_steps(const Scene& scene, const EmbreeScene& embree, const BakeOp
     steps.points.cells = {*found};
     steps.points.first = {0, static_cast<std::uint32_t>(steps.points.points.size())};
     return steps;
+}
+
+CellSteps bake_steps(const Scene& scene, const EmbreeScene& embree, const BakeOptions& options, ivec3 place,
+                     Progress& progress) {
+    check_options(options);
+    require_memory(scene.bounds, sampled_area(scene), scene.triangles.size(), options, available_memory_bytes());
+    const FieldShape shape = make_shape(scene.bounds, options.cell_m, options.mask_size);
+    return bake_steps(place_points(scene, shape, options, progress), shape, embree, options, place);
 }
 
 }  // namespace sightlines::visibility_field

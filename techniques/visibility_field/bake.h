@@ -47,7 +47,12 @@ struct CellSteps {
     std::vector<std::vector<std::uint32_t>> occluded;  ///< [points][words_per_mask]
 };
 
-/// The point samples of the cell at `place`, cast from once more.
+/// The point samples of the cell at `place`, cast from once more. `all`: the samples of a field of this shape, as bake
+/// kept them. Nothing where the cell holds none.
+CellSteps bake_steps(const CellPoints& all, const FieldShape& shape, const EmbreeScene& embree,
+                     const BakeOptions& options, ivec3 place);
+
+/// The same for samples that are placed once more.
 CellSteps bake_steps(const Scene& scene, const EmbreeScene& embree, const BakeOptions& options, ivec3 place,
                      Progress& progress);
 

@@ -22,6 +22,21 @@ ivec2 across_edges(int column, int row, int size) {
     return {column, row};
 }
 
+/// The bytes of a cell, padding included, as the map of the cell at `place` of the dense layout.
+void write_cell(const VisibilityField& field, const OccupiedCell& cell, DenseField& dense, ivec3 place) {
+    const int size = field.shape.mask_size;
+    const auto visible = mask_words(field, cell.index, 0), occluded = mask_words(field, cell.index, 1);
+    for (int row = -1; row <= size; ++row) {
+        for (int column = -1; column <= size; ++column) {
+            const ivec2 inside = across_edges(column, row, size);
+            int byte = cell.label != 0 ? dense_label : 0;
+            if (mask_bit(visible, size, inside.x, inside.y)) byte |= dense_visible;
+            if (mask_bit(occluded, size, inside.x, inside.y)) byte |= dense_occluded;
+            dense.texels[dense.place(place, column, row)] = static_cast<std::uint8_t>(byte);
+        }
+    }
+}
+
 }  // namespace
 
 std::size_t DenseField::place(ivec3 cell, int column, int row) const {
@@ -44,19 +59,7 @@ DenseField to_dense(const VisibilityField& field) {
         throw EnvironmentError("memory", "the dense layout takes " + memory_text(static_cast<double>(needed)) +
                                              ", and " + memory_text(static_cast<double>(available)) + " are free");
     DenseField dense{field.shape, std::vector<std::uint8_t>(needed)};
-    const int size = field.shape.mask_size;
-    for (const OccupiedCell& cell : occupied_cells(field)) {
-        const auto visible = mask_words(field, cell.index, 0), occluded = mask_words(field, cell.index, 1);
-        for (int row = -1; row <= size; ++row) {
-            for (int column = -1; column <= size; ++column) {
-                const ivec2 inside = across_edges(column, row, size);
-                int byte = cell.label != 0 ? dense_label : 0;
-                if (mask_bit(visible, size, inside.x, inside.y)) byte |= dense_visible;
-                if (mask_bit(occluded, size, inside.x, inside.y)) byte |= dense_occluded;
-                dense.texels[dense.place(cell.place, column, row)] = static_cast<std::uint8_t>(byte);
-            }
-        }
-    }
+    for (const OccupiedCell& cell : occupied_cells(field)) write_cell(field, cell, dense, cell.place);
     return dense;
 }
 
@@ -85,6 +88,15 @@ ImageScalar dense_layer(const DenseField& dense, int y) {
     for (std::size_t p = 0; p < layer.pixels.size(); ++p)
         layer.pixels[p] = static_cast<float>(dense.texels[first + p]) / 255.0f;
     return layer;
+}
+
+ImageScalar dense_layer(const VisibilityField& field, int y) {
+    DenseField layer{field.shape, {}};
+    layer.shape.cells_y = 1;
+    layer.texels.resize(dense_bytes(layer.shape));
+    for (const OccupiedCell& cell : occupied_cells(field))
+        if (cell.place.y == y) write_cell(field, cell, layer, {cell.place.x, 0, cell.place.z});
+    return dense_layer(layer, 0);
 }
 
 }  // namespace sightlines::visibility_field

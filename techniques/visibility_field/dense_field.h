@@ -43,4 +43,7 @@ DenseCell dense_cell(const DenseField& dense, ivec3 cell);
 /// One layer as in Figure 4: the byte as a grey value.
 ImageScalar dense_layer(const DenseField& dense, int y);
 
+/// The same layer of a field that was not laid out so.
+ImageScalar dense_layer(const VisibilityField& field, int y);
+
 }  // namespace sightlines::visibility_field

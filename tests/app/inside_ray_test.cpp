@@ -5,6 +5,7 @@
 #include "app/inside.h"
 #include "techniques/base/error.h"
 #include "techniques/visibility_field/visibility_field.h"
+#include "visualizers/mask_merging.h"
 
 namespace sightlines {
 namespace {
@@ -93,7 +94,7 @@ TEST(RayPicture, MarksTheTexelOfOneFaceOfACubeOfShadowMaps) {
     ASSERT_EQ(picture.maps.size(), 6u);
     int asked = 0;
     for (const PictureMap& map : picture.maps) {
-        ASSERT_EQ(map.side, 128);
+        ASSERT_EQ(map.size, ivec2(128));
         ASSERT_EQ(map.values.size(), 128u * 128u);
         asked += map.asked.has_value();
         for (const float value : map.values) ASSERT_TRUE(value >= 0.0f && value <= 1.0f);
@@ -139,6 +140,58 @@ TEST(RayPicture, ShowsTheFieldsCellAndBothItsMasksFlatAndFolded) {
                                        {ray.request.position, ray.request.normal, direction, vec3(0.0f)})
             .cell);
     EXPECT_GT(glm::dot(glm::normalize(middle - cell.centre()), direction), 0.98f);
+}
+
+TEST(RayPicture, ShowsThePickedCellInsteadOfTheRaysOwn) {
+    Made made;
+    Session session = small_session("visibility_field");
+    const RayPicture own = made.picture(session);
+    const auto other = std::ranges::find_if(*own.boxes, [&](const ValuedBox& box) {
+        return glm::distance(box.box.centre(), own.cell->centre()) > 0.5f * own.cell->diagonal();
+    });
+    ASSERT_NE(other, own.boxes->end());
+    session.selection.voxel = other->place;
+    const RayPicture picked = made.picture(session);
+    EXPECT_LT(glm::distance(picked.cell->centre(), other->box.centre()), 1e-3f);
+    EXPECT_EQ(picked.maps[0].asked, own.maps[0].asked) << "the ray's direction, whatever the cell";
+    session.selection.voxel = ivec3(1000);
+    EXPECT_EQ(made.picture(session).cell->centre(), own.cell->centre()) << "a cell without masks is not shown";
+}
+
+TEST(RayPicture, MergesTheCellsSamplesIntoWhatTheFieldHolds) {
+    Made made;
+    Session session = small_session("visibility_field");
+    session.parameters["visibility_field"]["dilation"] = 0.0;
+    const RayPicture stored = made.picture(session);
+    session.views = {View{"merging", {}}};
+    const RayPicture merging = made.picture(session);
+    ASSERT_TRUE(merging.samples);
+    ASSERT_GT(merging.samples->size(), 1u);
+    const RayPicture all = merged_until(merging, most_merged_samples);
+    EXPECT_EQ(all.maps[2].values, stored.maps[0].values);
+    EXPECT_EQ(all.maps[3].values, stored.maps[1].values);
+    EXPECT_EQ(all.patches, stored.patches);
+}
+
+TEST(RayPicture, ShowsTheCellsOfOneLayerAndTheirMapsAsThePaperLaysThemOut) {
+    Made made;
+    Session session = small_session("visibility_field");
+    session.views = {View{"atlas", {}}};
+    const RayPicture picture = made.picture(session);
+    const visibility_field::BuiltField& built =
+        visibility_field::built_field(made.results.structure(session, made.progress)->value.structure);
+    const FieldShape& shape = built.field.shape;
+    const int map_side = shape.mask_size + 2;
+    ASSERT_EQ(picture.maps.size(), 1u);
+    EXPECT_EQ(picture.maps[0].size, ivec2(shape.cells_x, shape.cells_z) * map_side);
+    ASSERT_FALSE(picture.boxes->empty());
+    const int layer = picture.boxes->front().place.y;
+    for (const ValuedBox& box : *picture.boxes) EXPECT_EQ(box.place.y, layer);
+    const ImageScalar whole = dense_layer(visibility_field::to_dense(built.field), layer);
+    EXPECT_EQ(dense_layer(built.field, layer).pixels, whole.pixels);
+    const ivec2 cell = *picture.maps[0].asked / map_side;
+    EXPECT_TRUE(std::ranges::any_of(
+        *picture.boxes, [&](const ValuedBox& box) { return box.place.x == cell.x && box.place.z == cell.y; }));
 }
 
 }  // namespace

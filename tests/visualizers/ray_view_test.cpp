@@ -5,6 +5,7 @@
 #include "tests/visualizers/visualizer_testing.h"
 #include "visualizers/figure.h"
 #include "visualizers/inside_view.h"
+#include "visualizers/mask_merging.h"
 #include "visualizers/theme.h"
 #include "visualizers/view_camera.h"
 
@@ -32,7 +33,7 @@ ViewState cells_only() {
 }
 
 PictureMap map_of(int side, std::optional<ivec2> asked) {
-    PictureMap map{"+X", side, std::vector<float>(static_cast<std::size_t>(side * side), 0.0f), asked};
+    PictureMap map{"+X", ivec2(side), std::vector<float>(static_cast<std::size_t>(side * side), 0.0f), asked};
     map.values.front() = 1.0f;
     return map;
 }
@@ -128,6 +129,45 @@ TEST(RayView, IsAFigureWithVerdictLegendAndMaps) {
     for (const char* const label :
          {"BLOCKED", "Wrong: by Embree the ray is open.", "cells", "surface point", "environment", "+X"})
         EXPECT_NE(svg.find(">" + std::string(label) + "<"), std::string::npos) << label;
+}
+
+TEST(RayView, PicksTheNearestCellThatIsDrawnUnderThePixel) {
+    const RayPicture picture = picture_with({{in_front.box, 0.0f, {1, 2, 3}}, {behind.box, 0.0f, {4, 5, 6}}});
+    const ViewCamera camera = view_camera(shown_camera(picture, {}, view_size), view_size);
+    const vec2 middle(*projected(camera, behind.box.centre()));
+    EXPECT_EQ(pick(picture, {}, {}, view_size, middle).voxel, ivec3(4, 5, 6)) << "what is cut away is not picked";
+    ViewState whole;
+    whole.cut_away = CutAway::none;
+    const vec2 before(*projected(camera, in_front.box.centre()));
+    EXPECT_EQ(pick(picture, whole, {}, view_size, before).voxel, ivec3(1, 2, 3));
+    EXPECT_EQ(pick(picture, whole, {}, view_size, {2.0f, 2.0f}).voxel, std::nullopt);
+    whole.voxels = false;
+    EXPECT_EQ(pick(picture, whole, {}, view_size, before).voxel, std::nullopt);
+}
+
+TEST(RayView, StepsThroughTheMergingOfACellsSamples) {
+    RayPicture picture = picture_with({});
+    picture.cell = in_front.box;
+    picture.samples = std::make_shared<const std::vector<CellSample>>(std::vector<CellSample>{
+        {{4, 2, 2}, {0, 1, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}}, {{5, 2, 2}, {0, 1, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}}});
+    for (int k = 0; k < 4; ++k) picture.maps.push_back(map_of(2, ivec2(0, 0)));
+    const auto at = [&](int merged) { return merged_until(picture, merged); };
+    using Values = std::vector<float>;
+    EXPECT_EQ(at(1).maps[0].values, (Values{1, 0, 0, 0}));
+    EXPECT_EQ(at(1).maps[2].values, (Values{1, 0, 0, 0}));
+    EXPECT_EQ(at(2).maps[0].values, (Values{0, 0, 1, 0}));
+    EXPECT_EQ(at(2).maps[2].values, (Values{1, 0, 1, 0}));
+    EXPECT_EQ(at(2).maps[3].values, (Values{0, 1, 0, 0}));
+    EXPECT_EQ(at(1).patches.size(), 2u);
+    EXPECT_EQ(at(2).patches.size(), 3u);
+    EXPECT_EQ(at(2).marked.size(), 1u);
+    EXPECT_EQ(at(99).maps[2].title, "2 of 2 merged: visible");
+    InsideView view;
+    ViewState first;
+    first.merged_samples = 1;
+    const ImageRgba8 earlier = render(view, picture, first, {}, view_size, 1, 1.0f);
+    EXPECT_NE(render(view, picture, {}, {}, view_size, 1, 1.0f), earlier);
+    EXPECT_EQ(render(view, picture, first, {}, view_size, 1, 1.0f), earlier);
 }
 
 TEST(RayView, FindsNoCellUnderThePanelOfMaps) {
