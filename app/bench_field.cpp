@@ -104,6 +104,9 @@ FieldMeasurement measure_field(FieldMeasuring& m, const FieldScene& scene, const
     request.light = scene.light;
     request.culling = way.culling;
     request.order = way.order;
+    request.glossy = way.roughness > 0.0f;
+    request.roughness = way.roughness;
+    if (request.glossy) request.sampling = Sampling::brdf;
     request.threads = m.results.threads();
     return measure(field, *scene.embree, request, m.run.repetitions, m.progress);
 }

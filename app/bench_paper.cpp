@@ -241,6 +241,15 @@ constexpr std::array<PaperFigure, 2> xu_figure_7{{
     {"sponza", dense_memory, 50, 49008},
 }};
 
+constexpr std::array<PaperFigure, 6> xu_figure_10{{
+    {"sponza", time_without_field, 0, 54.64},
+    {"sponza", time_with_field, 0, 10.14},
+    {"sponza", field_speed_up, 0, 5.39},
+    {"bistro", time_without_field, 0, 48.75},
+    {"bistro", time_with_field, 0, 27.16},
+    {"bistro", field_speed_up, 0, 1.79},
+}};
+
 constexpr std::array<PaperFigure, 2> xu_memory{{
     {"sponza", dense_memory, 50, 49008},
     {"bistro", dense_memory, 100, 173958},
@@ -265,6 +274,8 @@ std::span<const PaperFigure> xu_2022(int number) {
             return xu_figure_6;
         case 7:
             return xu_figure_7;
+        case 10:
+            return xu_figure_10;
         case 0:
             return xu_memory;
         default:

@@ -76,6 +76,7 @@ void field_by_points(MeasuredTable& table, BenchRun& run, Results& results, Prog
 void field_by_cells(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 void field_by_samples(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 void field_labels(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
+void field_glossy(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 void field_memory(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 }  // namespace tables
 

@@ -52,6 +52,7 @@ void write_surface(const Scene& scene, std::uint32_t triangle, vec2 barycentric,
 
     const Material& material = scene.materials[scene.triangle_materials[triangle]];
     surfaces.albedo[pixel] = diffuse_albedo(scene, triangle, barycentric);
+    surfaces.gloss[pixel] = {material.roughness, material.metallic};
     surfaces.emission[pixel] =
         material.emissive * vec3(looked_up(scene, material.emissive_texture, triangle, barycentric));
 }
@@ -121,7 +122,8 @@ SurfaceBuffer visible_surfaces(const Scene& scene, const EmbreeScene& embree, co
                            std::vector<vec3>(pixels, vec3(0.0f)),
                            std::vector<vec3>(pixels, vec3(0.0f)),
                            std::vector<vec3>(pixels, vec3(0.0f)),
-                           std::vector<std::uint32_t>(pixels, no_triangle)};
+                           std::vector<std::uint32_t>(pixels, no_triangle),
+                           std::vector<vec2>(pixels, vec2(0.0f))};
     const int columns = (size.width + tile_size - 1) / tile_size;
     const int rows = (size.height + tile_size - 1) / tile_size;
     const PrimaryRays rays{scene, embree, camera, camera_frame(camera, size), std::numeric_limits<float>::infinity()};

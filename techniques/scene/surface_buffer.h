@@ -22,6 +22,7 @@ struct SurfaceBuffer {
     std::vector<vec3> albedo;             ///< [P] linear diffuse reflectance
     std::vector<vec3> emission;           ///< [P] radiance
     std::vector<std::uint32_t> triangle;  ///< [P]
+    std::vector<vec2> gloss{};            ///< [P] the material's roughness and metalness; empty: 1 and 0
 };
 
 /// A half-open rectangle of pixels.

@@ -15,7 +15,7 @@
 #include "techniques/base/parallel.h"
 #include "techniques/rays/open_rays.h"
 #include "techniques/visibility_field/ray_order.h"
-#include "techniques/visibility_field/render.h"
+#include "techniques/visibility_field/weighted_samples.h"
 
 namespace sightlines::visibility_field {
 namespace {
@@ -271,8 +271,7 @@ void answer(const TileWork& work, PackedRays& packed, SampleCounts& counts) {
         if (run.subtract && work.request.unshadowed == Unshadowed::analytic)
             irradiance += sightlines::irradiance(work.request.light, surfaces.shading_normal[run.pixel]);
         work.result.irradiance.pixels[run.pixel] = irradiance;
-        work.result.radiance.pixels[run.pixel] =
-            surfaces.emission[run.pixel] + surfaces.albedo[run.pixel] * std::numbers::inv_pi_v<float> * irradiance;
+        work.result.radiance.pixels[run.pixel] = reflected_radiance(work.request, run.pixel, irradiance);
         work.result.rays_traced.pixels[run.pixel] = static_cast<std::uint32_t>(run.count);
         work.result.rays_asked.pixels[run.pixel] = run.asked;
         work.result.shadow.pixels[run.pixel] =
@@ -370,6 +369,7 @@ void ask_picture(const TileWork& work, Progress& progress) {
 
 EnvironmentResult render_environment(const VisibilityField* field, const EmbreeScene& embree,
                                      const EnvironmentRequest& request, Progress& progress) {
+    if (is_weighted(request)) return render_weighted(field, embree, request, progress);
     EnvironmentResult result = blank_environment(request);
     ask_picture({field, &embree, request, harmonic_light(request.light), result}, progress);
     result.device =

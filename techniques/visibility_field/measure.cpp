@@ -15,7 +15,7 @@ FieldMeasurement measure(const VisibilityField& field, const EmbreeScene& embree
         const EnvironmentResult reference = render_environment(nullptr, embree, request, progress);
         const EnvironmentResult ours = render_environment(&field, embree, request, progress);
         double sampling_seconds = 0.0;
-        count_samples(&field, request, sampling_seconds);
+        if (!is_weighted(request)) count_samples(&field, request, sampling_seconds);
         if (k < 0) {
             measured.without = reference.counts;
             measured.with = ours.counts;

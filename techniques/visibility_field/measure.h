@@ -9,7 +9,8 @@ namespace sightlines::visibility_field {
 /// alike.
 struct FieldMeasurement {
     double seconds_without = 0.0, seconds_with = 0.0;
-    double seconds_sampling = 0.0;  ///< of seconds_with: making, looking up and sorting out the samples
+    double seconds_sampling = 0.0;  ///< of seconds_with: making, looking up and sorting out the samples; 0
+                                    ///< where these have weights of their own
     SampleCounts without, with;
     IrradianceError error;  ///< of the picture with the field
 

@@ -11,7 +11,7 @@
 #include "techniques/base/image.h"
 #include "techniques/base/progress.h"
 #include "techniques/rays/embree_scene.h"
-#include "techniques/scene/harmonics.h"
+#include "techniques/scene/environment_light.h"
 #include "techniques/scene/surface_buffer.h"
 #include "techniques/technique.h"
 #include "techniques/visibility_field/dense_field.h"
@@ -35,6 +35,11 @@ enum class Unshadowed { analytic, sampled };
 /// every ray alike.
 enum class RayOrder { pixel, direction };
 
+/// How samples are drawn. `cosine`: as in the paper. `brdf`: as the surface reflects. `map`: where the surroundings are
+/// bright. `both`: half of them so, half by the surface.
+enum class Sampling { cosine, brdf, map, both };
+
+struct MapDistribution;
 struct EnvironmentResult;
 
 struct EnvironmentRequest {
@@ -46,12 +51,27 @@ struct EnvironmentRequest {
     Culling culling = Culling::label;
     Unshadowed unshadowed = Unshadowed::analytic;
     RayOrder order = RayOrder::direction;
-    int threads = 0;             ///< 0: all. Never changes the result
-    bool reverse_tiles = false;  ///< work through the tiles backwards. Never changes the result
-    bool keep_verdicts = false;  ///< also return every sample's answer
+    Sampling sampling = Sampling::cosine;
+    bool glossy = false;  ///< surfaces reflect by their gloss, else evenly. Cells' labels are then ignored (Figure 10)
+    float roughness = 0.0f;                         ///< of all glossy surfaces; 0: each one's own
+    const EnvironmentLight* map = nullptr;          ///< what sends light, instead of `light`; may be null
+    const MapDistribution* distribution = nullptr;  ///< not null where samples are drawn by the map
+    int threads = 0;                                ///< 0: all. Never changes the result
+    bool reverse_tiles = false;                     ///< work through the tiles backwards. Never changes the result
+    bool keep_verdicts = false;                     ///< also return every sample's answer
     /// Called with each finished part of the picture, from worker threads, one call at a time. May be empty.
     std::function<void(const EnvironmentResult& so_far, PixelRect changed)> on_region = {};
 };
+
+/// Whether samples have weights of their own, instead of the paper's that all weigh the same.
+inline bool is_weighted(const EnvironmentRequest& request) {
+    return request.glossy || request.sampling != Sampling::cosine || request.map != nullptr;
+}
+
+/// The request's culling; of glossy surfaces labels are ignored.
+inline Culling culling_used(const EnvironmentRequest& request) {
+    return request.glossy && request.culling == Culling::label ? Culling::visible : request.culling;
+}
 
 /// What became of all samples. A sample that points below its surface counts as blocked without a ray.
 struct SampleCounts {
@@ -67,7 +87,7 @@ struct SampleCounts {
 
 /// Pictures of the surfaces' size; the background is black and traces nothing.
 struct EnvironmentResult {
-    ImageRgb irradiance;               ///< W/m^2
+    ImageRgb irradiance;               ///< W/m^2; of glossy surfaces pi times what they reflect
     ImageRgb radiance;                 ///< emission + albedo / pi * irradiance
     Image<std::uint32_t> rays_traced;  ///< of each pixel
     Image<std::uint32_t> rays_asked;   ///< samples of each pixel that are above its surface
@@ -87,11 +107,15 @@ using PixelMoments = std::array<float, 9>;
 /// pi / samples times the sum of radiances.
 vec3 irradiance_of(const HarmonicLight& light, const PixelMoments& moments, int samples);
 
+/// What a surface sends to the camera under this irradiance: emission + albedo / pi * irradiance; a glossy one's
+/// irradiance already is what it reflects, times pi.
+vec3 reflected_radiance(const EnvironmentRequest& request, std::size_t pixel, vec3 irradiance);
+
 /// A result of the request's size in which nothing was asked yet, with room for verdicts where they are kept.
 EnvironmentResult blank_environment(const EnvironmentRequest& request);
 
-/// Without a field (null) every sample above its surface is traced: the reference, by the same code. The hemisphere is
-/// that of the shading normal.
+/// Samples of any weight (is_weighted). Without a field (null) every sample above its surface is traced: the reference,
+/// by the same code. The hemisphere is that of the shading normal.
 EnvironmentResult render_environment(const VisibilityField* field, const EmbreeScene& embree,
                                      const EnvironmentRequest& request, Progress& progress);
 

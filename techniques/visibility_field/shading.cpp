@@ -31,6 +31,12 @@ vec3 irradiance_of(const HarmonicLight& light, const PixelMoments& moments, int 
     return sum * (std::numbers::pi_v<float> / static_cast<float>(samples));
 }
 
+vec3 reflected_radiance(const EnvironmentRequest& request, std::size_t pixel, vec3 irradiance) {
+    const SurfaceBuffer& surfaces = *request.surfaces;
+    const vec3 share = request.glossy ? vec3(1.0f) : surfaces.albedo[pixel];
+    return surfaces.emission[pixel] + share * std::numbers::inv_pi_v<float> * irradiance;
+}
+
 EnvironmentResult blank_environment(const EnvironmentRequest& request) {
     const ImageSize size = request.surfaces->size;
     EnvironmentResult result;

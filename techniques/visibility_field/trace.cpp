@@ -9,6 +9,7 @@
 #include "shaders/visibility_field.h"
 #include "techniques/rays/open_rays.h"
 #include "techniques/visibility_field/trace.h"
+#include "techniques/visibility_field/weighted_samples.h"
 
 namespace sightlines::visibility_field {
 namespace {
@@ -59,6 +60,10 @@ void decide(const VisibilityField& field, Culling culling, const SampleRay& aske
 
 SampleRay sample_ray(const EnvironmentRequest& request, std::size_t pixel, int sample) {
     const SurfaceBuffer& surfaces = *request.surfaces;
+    if (is_weighted(request)) {
+        const PixelSample weighted = weighted_samples(request, pixel)[static_cast<std::size_t>(sample)];
+        return {surfaces.position[pixel], surfaces.normal[pixel], weighted.direction, weighted.adds};
+    }
     const SamplePattern& pattern = *request.pattern;
     const auto width = static_cast<std::size_t>(surfaces.size.width);
     const std::size_t tile = pattern.tile_place(static_cast<int>(pixel % width), static_cast<int>(pixel / width));

@@ -9,8 +9,11 @@
 #include "techniques/base/error.h"
 #include "techniques/base/huge_buffer.h"
 #include "techniques/base/parallel.h"
+#include "techniques/visibility_field/denoise.h"
+#include "techniques/visibility_field/map_sampling.h"
 #include "techniques/visibility_field/memory_need.h"
 #include "techniques/visibility_field/surface_cells.h"
+#include "techniques/visibility_field/weighted_samples.h"
 
 namespace sightlines::visibility_field {
 namespace {
@@ -22,7 +25,11 @@ constexpr std::array<std::string_view, 3> cullings{"label", "visible", "both"};
 constexpr std::array<std::string_view, 2> unshadowed_ways{"analytic", "sampled"};
 constexpr std::array<std::string_view, 2> ray_orders{"pixel", "direction"};
 
-constexpr std::array<Parameter, 12> parameters{{
+constexpr std::array<std::string_view, 2> surface_kinds{"diffuse", "glossy"};
+constexpr std::array<std::string_view, 4> samplings{"cosine", "brdf", "map", "both"};
+constexpr std::array<std::string_view, 2> light_sources{"harmonics", "map"};
+
+constexpr std::array<Parameter, 17> parameters{{
     {"cell_size", "Cell size", "m", ParameterKind::real, ParameterAffects::structure, 0.01, 1000, 0.5, 0.5,
      "Side of a cell of the grid."},
     {"mask_size", "Mask size", "texels", ParameterKind::integer, ParameterAffects::structure, 8, 64, 18, 18,
@@ -56,6 +63,21 @@ constexpr std::array<Parameter, 12> parameters{{
      "What blocked light is taken off where the occluded region is traced: the exact irradiance, as in the paper, or "
      "that of the same samples.",
      unshadowed_ways},
+    {"surface", "Surfaces", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 0, 0,
+     "All reflect evenly, or each by its material's roughness and metalness; labels are then ignored and visible "
+     "regions traced (Figure 10).",
+     surface_kinds},
+    {"roughness", "Roughness", "", ParameterKind::real, ParameterAffects::picture, 0, 1, 0, std::nullopt,
+     "Of all glossy surfaces; 0 leaves each material its own."},
+    {"sampling", "Sampling", "", ParameterKind::choice, ParameterAffects::picture, 0, 3, 0, 0,
+     "Samples are drawn by the cosine, by what the surface reflects, by the map of the surroundings, or half by map "
+     "and "
+     "half by surface.",
+     samplings},
+    {"light_from", "Light from", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 0, 0,
+     "The surroundings as harmonics of order 3, or the map itself with all its contrasts.", light_sources},
+    {"denoise", "Denoising", "passes", ParameterKind::integer, ParameterAffects::picture, 0, most_denoising_passes, 0,
+     0, "Passes of a filter that takes noise out of the irradiance and keeps edges; 0: none."},
     {"ray_order", "Order of rays", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 1, 0,
      "Embree gets the rays pixel by pixel, or those of a few hundred pixels sorted by direction.", ray_orders},
 }};
@@ -127,10 +149,21 @@ EnvironmentRequest environment_request(const RenderRequest& request, const Sampl
     asked.culling = culling_of(request.parameters);
     asked.unshadowed = choice_of<Unshadowed>(request.parameters, "unshadowed");
     asked.order = choice_of<RayOrder>(request.parameters, "ray_order");
+    asked.sampling = choice_of<Sampling>(request.parameters, "sampling");
+    asked.glossy = value_of(request.parameters, "surface") != 0.0;
+    asked.roughness = static_cast<float>(value_of(request.parameters, "roughness"));
+    if (value_of(request.parameters, "light_from") != 0.0) asked.map = request.environment;
     asked.threads = request.threads;
     asked.reverse_tiles = request.reverse_tiles;
     asked.keep_verdicts = request.keep_verdicts;
     return asked;
+}
+
+/// Made for one picture, or for the samples of one pixel; takes a few milliseconds.
+std::optional<MapDistribution> distribution_for(const RenderRequest& request) {
+    const auto sampling = choice_of<Sampling>(request.parameters, "sampling");
+    if (sampling != Sampling::map && sampling != Sampling::both) return std::nullopt;
+    return make_distribution(*request.environment);
 }
 
 /// A picture that shows the surroundings where it shows no surface.
@@ -171,6 +204,16 @@ void take_over(const EnvironmentResult& from, const SurfaceBuffer& surfaces, Pix
     }
 }
 
+void denoise_picture(const EnvironmentRequest& asked, int passes, EnvironmentResult& made) {
+    if (passes == 0) return;
+    const auto start = std::chrono::steady_clock::now();
+    denoise(*asked.surfaces, passes, asked.threads, made.irradiance);
+    for (std::size_t p = 0; p < made.radiance.pixels.size(); ++p)
+        if (asked.surfaces->triangle[p] != no_triangle)
+            made.radiance.pixels[p] = reflected_radiance(asked, p, made.irradiance.pixels[p]);
+    made.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Makes a picture of the request's samples.
 using Renderer = std::function<EnvironmentResult(const EnvironmentRequest&)>;
 
@@ -179,6 +222,8 @@ RenderResult render_samples(const RenderRequest& request, const DenseField* dens
     const SurfaceBuffer& surfaces = *request.surfaces;
     RenderResult result = background(request);
     EnvironmentRequest asked = environment_request(request, *pattern);
+    const std::optional<MapDistribution> distribution = distribution_for(request);
+    asked.distribution = distribution ? &*distribution : nullptr;
     asked.dense = dense;
     if (request.on_region)
         asked.on_region = [&](const EnvironmentResult& so_far, PixelRect changed) {
@@ -186,6 +231,7 @@ RenderResult render_samples(const RenderRequest& request, const DenseField* dens
             request.on_region(result, changed);
         };
     EnvironmentResult made = make(asked);
+    denoise_picture(asked, static_cast<int>(value_of(request.parameters, "denoise")), made);
     take_over(made, surfaces, {0, 0, surfaces.size.width, surfaces.size.height}, result);
     result.verdicts = std::move(made.verdicts);
     result.rays = made.counts.samples - made.counts.below;
@@ -220,9 +266,22 @@ RenderResult reference(const EmbreeScene& embree, const RenderRequest& request, 
     return result;
 }
 
+std::vector<Light> as_lights(const std::vector<PixelSample>& samples) {
+    std::vector<Light> all(samples.size());
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        all[k].kind = LightKind::directional;
+        all[k].direction = -samples[k].direction;
+        all[k].intensity = samples[k].adds;
+    }
+    return all;
+}
+
 std::vector<Light> lights(const RenderRequest& request, std::size_t pixel) {
     const PatternPointer pattern = pattern_of(request);
-    const EnvironmentRequest asked = environment_request(request, *pattern);
+    EnvironmentRequest asked = environment_request(request, *pattern);
+    const std::optional<MapDistribution> distribution = distribution_for(request);
+    asked.distribution = distribution ? &*distribution : nullptr;
+    if (is_weighted(asked)) return as_lights(weighted_samples(asked, pixel));
     std::vector<Light> all(static_cast<std::size_t>(pattern->samples));
     for (std::size_t k = 0; k < all.size(); ++k) {
         const SampleRay ray = sample_ray(asked, pixel, static_cast<int>(k));
@@ -326,6 +385,11 @@ const BuiltField& built_field(const Structure& structure) {
     return *std::any_cast<const BuiltFieldPointer&>(structure);
 }
 
-Culling culling_of(const ParameterValues& chosen) { return choice_of<Culling>(chosen, "culling"); }
+Culling culling_of(const ParameterValues& chosen) {
+    EnvironmentRequest asked;
+    asked.culling = choice_of<Culling>(chosen, "culling");
+    asked.glossy = value_of(chosen, "surface") != 0.0;
+    return culling_used(asked);
+}
 
 }  // namespace sightlines::visibility_field

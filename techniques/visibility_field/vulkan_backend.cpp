@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <numbers>
 #include <optional>
 
 #include "shaders/spirv.h"
 #include "shaders/visibility_field_lighting_data.h"
+#include "techniques/base/parallel.h"
 #include "techniques/compute/buffer.h"
 #include "techniques/compute/dispatch.h"
 #include "techniques/pixel_groups.h"
 #include "techniques/rays/open_rays.h"
+#include "techniques/visibility_field/weighted_samples.h"
 
 namespace sightlines::visibility_field {
 
@@ -78,6 +79,8 @@ struct TileAsker {
     HarmonicLight light;
     compute::Buffer directions{}, surfaces{}, sums{}, verdicts{};  ///< of one tile but for the directions; mapped
     FieldLightingJob job{};
+    std::vector<std::vector<PixelSample>>
+        weighted{};                   ///< of the tile's pixels, where samples have weights of their own
     double pairs_per_second = 2.0e6;  ///< of the last dispatch; at first a guess low enough for any device
 
     std::span<FieldSums> tile_sums() const {
@@ -96,12 +99,15 @@ TileAsker make_asker(const FieldOnDevice& field, const EnvironmentRequest& reque
                      const Progress& progress) {
     const SamplePattern& pattern = *request.pattern;
     const auto samples = static_cast<std::uint32_t>(pattern.samples);
-    const std::uint32_t words = request.keep_verdicts ? (samples + 31) / 32 : 0;
+    const bool weighted = is_weighted(request);  // then the device only answers, and the weights stay here
+    const std::uint32_t words = request.keep_verdicts || weighted ? (samples + 31) / 32 : 0;
     const std::size_t padded = (most_pixels + workgroup - 1) / workgroup * workgroup;
     TileAsker asker{field, request, harmonic_light(request.light)};
     std::vector<vec3> directions;
     for (std::size_t k = 0; k < samples; ++k) directions.emplace_back(pattern.x[k], pattern.y[k], pattern.z[k]);
-    asker.directions = on_device(field.device, directions, progress);
+    asker.directions =
+        weighted ? host_buffer(field, padded * samples * sizeof(vec3)) : on_device(field.device, directions, progress);
+    asker.job.own_directions = weighted ? 1 : 0;
     asker.surfaces = host_buffer(field, padded * sizeof(AskingPoint));
     asker.sums = host_buffer(field, padded * sizeof(FieldSums));
     asker.verdicts = host_buffer(field, padded * words * sizeof(std::uint32_t));
@@ -112,7 +118,7 @@ TileAsker make_asker(const FieldOnDevice& field, const EnvironmentRequest& reque
     asker.job.verdicts = asker.verdicts.address;
     asker.job.samples = samples;
     asker.job.words_per_pixel = words;
-    asker.job.culling = culling_number(field, request.culling);
+    asker.job.culling = culling_number(field, culling_used(request));
     asker.job.subtracts = request.unshadowed == Unshadowed::analytic ? 1 : 0;
     return asker;
 }
@@ -139,11 +145,25 @@ std::uint32_t place_surfaces(const TileAsker& asker, const PixelGroups& pixels) 
     return static_cast<std::uint32_t>(padded);
 }
 
+/// Makes samples that have weights of their own.
+void place_samples(TileAsker& asker, const PixelGroups& pixels) {
+    asker.weighted.assign(pixels.pixel.size(), {});
+    auto* directions = reinterpret_cast<vec3*>(asker.directions.mapped.data());
+    parallel_for(static_cast<std::int64_t>(pixels.pixel.size()), asker.request.threads, [&](std::int64_t index) {
+        const auto k = static_cast<std::size_t>(index);
+        if (pixels.pixel[k] == no_triangle) return;
+        asker.weighted[k] = weighted_samples(asker.request, pixels.pixel[k]);
+        for (std::size_t s = 0; s < asker.weighted[k].size(); ++s)
+            directions[k * asker.job.samples + s] = asker.weighted[k][s].direction;
+    });
+}
+
 /// Asks all samples of the tile's pixels, in dispatches short enough for others to use the device in between. Where the
 /// samples are cut does not change the result: each pixel's sums go on where they were left.
 void ask_tile(TileAsker& asker, const PixelGroups& pixels, const Progress& progress) {
     const std::uint32_t count = place_surfaces(asker, pixels);
     std::ranges::fill(asker.tile_verdicts(), 0u);
+    if (asker.job.own_directions != 0) place_samples(asker, pixels);
     asker.job.first_sample = 0;
     while (asker.job.first_sample < asker.job.samples) {
         progress.check();
@@ -175,21 +195,25 @@ void resolve(const TileAsker& asker, const PixelGroups& pixels, EnvironmentResul
         if (pixels.pixel[k] == no_triangle) continue;
         const std::size_t pixel = pixels.pixel[k];
         const FieldSums& sums = asker.tile_sums()[k];
+        count(sums, asker.job.samples, result.counts);
+        result.rays_traced.pixels[pixel] = sums.traced;
+        if (asker.job.own_directions != 0) {
+            resolve_weighted(asker.request, pixel, asker.weighted[k], asker.tile_verdicts().subspan(k * words, words),
+                             result);
+            continue;
+        }
         PixelMoments moments;
         std::ranges::copy(sums.moment, moments.begin());
         vec3 irradiance = irradiance_of(asker.light, moments, asker.request.pattern->samples);
         if (sums.subtracts != 0)
             irradiance += sightlines::irradiance(asker.request.light, surfaces.shading_normal[pixel]);
         result.irradiance.pixels[pixel] = irradiance;
-        result.radiance.pixels[pixel] =
-            surfaces.emission[pixel] + surfaces.albedo[pixel] * std::numbers::inv_pi_v<float> * irradiance;
-        result.rays_traced.pixels[pixel] = sums.traced;
+        result.radiance.pixels[pixel] = reflected_radiance(asker.request, pixel, irradiance);
         result.rays_asked.pixels[pixel] = sums.asked;
         result.shadow.pixels[pixel] =
             static_cast<float>(sums.blocked) / static_cast<float>(std::max<std::uint32_t>(sums.asked, 1));
         if (words > 0)
             std::ranges::copy(asker.tile_verdicts().subspan(k * words, words), &result.verdicts.words[pixel * words]);
-        count(sums, asker.job.samples, result.counts);
     }
 }
 

@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <mutex>
 
-#include "shaders/visibility_field.h"
 #include "techniques/base/parallel.h"
 #include "techniques/rays/open_rays.h"
-#include "techniques/visibility_field/render.h"
+#include "techniques/visibility_field/decide.h"
 
 namespace sightlines::visibility_field {
 namespace {
@@ -30,20 +29,6 @@ struct Discarded {
         blocked.resize(sample.size() / 32 + 1);
     }
 };
-
-kernel::Decision decide(const VisibilityField& field, Culling culling, const kernel::FieldCell& cell, vec3 direction,
-                        bool above) {
-    const FieldShape& shape = field.shape;
-    const int texel = kernel::texel_of(shape, direction);
-    const kernel::Words masks{field.masks.data()}, numbers{field.mask_numbers.data()};
-    const bool visible = kernel::is_set(
-        kernel::load_mask(masks, kernel::mask_start(shape, numbers, cell.index, 0), shape.words_per_mask), texel);
-    const bool occluded = kernel::is_set(
-        kernel::load_mask(masks, kernel::mask_start(shape, numbers, cell.index, 1), shape.words_per_mask), texel);
-    if (culling == Culling::both) return kernel::decide_by_both(above, visible, occluded);
-    const uint label = culling == Culling::visible ? 1u : cell.label;
-    return kernel::decide_by_label(label, above, label == 1 ? visible : occluded);
-}
 
 void collect(const VisibilityField& field, const EmbreeScene& embree, const EnvironmentRequest& request,
              std::size_t pixel, std::size_t tile, Discarded& discarded) {

@@ -1,4 +1,6 @@
 // The row of the catalog against the library that it stands on.
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "techniques/base/error.h"
@@ -134,6 +136,46 @@ TEST(FieldTechnique, PaintsOnVulkanWhatItPaintsOnTheCpuWhereverItWasBuilt) {
     EXPECT_LT(built_for_vulkan.rays_traced, built_for_vulkan.rays);
     EXPECT_LT(compare(built_for_vulkan, cpu).visibility_percent, 0.1);
     EXPECT_LT(compare(built_for_vulkan, cpu).rmse, 1e-3);
+}
+
+TEST(FieldTechnique, AddsUpTheSamplesThatItTellsOfHoweverTheyAreDrawn) {
+    for (const ParameterValues& more :
+         {ParameterValues{{"sampling", 2.0}, {"light_from", 1.0}}, ParameterValues{{"surface", 1.0}, {"sampling", 3.0}},
+          ParameterValues{{"surface", 1.0}, {"sampling", 1.0}, {"roughness", 0.3}, {"light_from", 1.0}}}) {
+        Asked asked(more);
+        const RenderResult ours = asked.picture(), truth = asked.reference();
+        EXPECT_LT(compare(ours, truth).visibility_percent, 3.0);
+        const bool glossy = more.contains("surface");
+        for (std::size_t p = 0; p < size.pixels(); p += 7) {
+            if (!asked.shows_surface(p)) continue;
+            const std::vector<Light> samples = technique().environment->lights(asked.request, p);
+            vec3 sum(0.0f);
+            for (std::uint32_t k = 0; k < samples.size(); ++k) {
+                if (glm::dot(asked.surfaces.normal[p], samples[k].direction) >= 0.0f) continue;
+                if (!ours.verdicts.blocked(p, k)) sum += samples[k].intensity;
+                const Trace trace = technique().trace(
+                    asked.structure,
+                    {asked.surfaces.position[p], asked.surfaces.normal[p], samples[k], asked.parameters});
+                ASSERT_EQ(trace.blocked, ours.verdicts.blocked(p, k));
+            }
+            const vec3 share = glossy ? vec3(1.0f) : asked.surfaces.albedo[p];
+            const vec3 expected = glm::max(vec3(0.0f), share * sum / std::numbers::pi_v<float>);
+            ASSERT_LT(glm::distance(ours.radiance.pixels[p], expected), 1e-4f + 1e-4f * glm::length(expected));
+        }
+    }
+}
+
+TEST(FieldTechnique, TakesNoiseOutWhereAsked) {
+    Asked noisy({{"samples", 16.0}}), smooth({{"samples", 16.0}, {"denoise", 2.0}}), fine({{"samples", 256.0}});
+    const RenderResult truth = fine.picture();
+    EXPECT_EQ(noisy.picture().verdicts.words, smooth.picture().verdicts.words);
+    const auto error = [&](const RenderResult& result) {
+        double sum = 0.0;
+        for (std::size_t p = 0; p < size.pixels(); ++p)
+            sum += glm::distance(result.radiance.pixels[p], truth.radiance.pixels[p]);
+        return sum;
+    };
+    EXPECT_LT(error(smooth.picture()), 0.9 * error(noisy.picture()));
 }
 
 TEST(FieldTechnique, TellsInTheTraceWhichSampleShouldHaveSeenAWrongRay) {

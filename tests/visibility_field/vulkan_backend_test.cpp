@@ -9,6 +9,7 @@
 
 #include "techniques/compute/device.h"
 #include "techniques/scene/harmonics.h"
+#include "techniques/visibility_field/map_sampling.h"
 #include "tests/visibility_field/scenes.h"
 
 namespace sightlines::visibility_field {
@@ -127,6 +128,20 @@ TEST(FieldOnVulkan, GivesTheSamePixelsInAnyOrderOfTilesAndTellsOfEach) {
     EXPECT_EQ(once.verdicts.words, again.verdicts.words);
     EXPECT_EQ(once.counts, again.counts);
     EXPECT_EQ(reported, asked.surfaces.size.pixels());
+}
+
+TEST(FieldOnVulkan, AnswersSamplesThatHaveWeightsOfTheirOwn) {
+    NEEDS_VULKAN;
+    Case asked;
+    const EnvironmentLight sky = make_environment_light(procedural_sky({}));
+    const MapDistribution distribution = make_distribution(sky);
+    asked.request.map = &sky;
+    asked.request.distribution = &distribution;
+    asked.request.sampling = Sampling::both;
+    for (const bool glossy : {false, true}) {
+        asked.request.glossy = glossy;
+        expect_alike(asked, asked.on_cpu(), asked.on_vulkan());
+    }
 }
 
 TEST(FieldOnVulkan, StopsWhenCancelled) {
