@@ -79,9 +79,8 @@ struct TileAsker {
     HarmonicLight light;
     compute::Buffer directions{}, surfaces{}, sums{}, verdicts{};  ///< of one tile but for the directions; mapped
     FieldLightingJob job{};
-    std::vector<std::vector<PixelSample>>
-        weighted{};                   ///< of the tile's pixels, where samples have weights of their own
-    double pairs_per_second = 2.0e6;  ///< of the last dispatch; at first a guess low enough for any device
+    std::vector<DrawnPixel> weighted{};  ///< of the tile's pixels, where samples have weights of their own
+    double pairs_per_second = 2.0e6;     ///< of the last dispatch; at first a guess low enough for any device
 
     std::span<FieldSums> tile_sums() const {
         return {reinterpret_cast<FieldSums*>(sums.mapped.data()), sums.bytes / sizeof(FieldSums)};
@@ -152,9 +151,8 @@ void place_samples(TileAsker& asker, const PixelGroups& pixels) {
     parallel_for(static_cast<std::int64_t>(pixels.pixel.size()), asker.request.threads, [&](std::int64_t index) {
         const auto k = static_cast<std::size_t>(index);
         if (pixels.pixel[k] == no_triangle) return;
-        asker.weighted[k] = weighted_samples(asker.request, pixels.pixel[k]);
-        for (std::size_t s = 0; s < asker.weighted[k].size(); ++s)
-            directions[k * asker.job.samples + s] = asker.weighted[k][s].direction;
+        asker.weighted[k] = draw_samples(asker.request, pixels.pixel[k]);
+        std::ranges::copy(asker.weighted[k].directions, directions + k * asker.job.samples);
     });
 }
 

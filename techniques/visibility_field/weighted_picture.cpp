@@ -16,7 +16,7 @@ namespace kernel = scalar_kernel;
 struct WaitingRays {
     struct Run {
         std::size_t pixel = 0;
-        std::vector<PixelSample> samples;
+        DrawnPixel drawn;
         std::vector<std::uint32_t> blocked;  ///< without a ray
     };
     std::vector<float> origin[3], direction[3];
@@ -50,12 +50,12 @@ void sort_samples(const Picture& picture, std::size_t pixel, WaitingRays& waitin
         cell = kernel::locate_cell(picture.field->shape, {picture.field->bricks.data()}, position, normal);
     const bool has_cell = cell.index != kernel::no_cell;
     const vec3 start = lifted_off(picture.embree, position, normal);
-    waiting.runs.push_back({pixel, weighted_samples(request, pixel), {}});
+    waiting.runs.push_back({pixel, draw_samples(request, pixel), {}});
     WaitingRays::Run& run = waiting.runs.back();
-    run.blocked.resize((run.samples.size() + 31) / 32);
+    run.blocked.resize((run.drawn.directions.size() + 31) / 32);
     std::uint32_t traced = 0;
-    for (std::uint32_t k = 0; k < run.samples.size(); ++k) {
-        const vec3 direction = run.samples[k].direction;
+    for (std::uint32_t k = 0; k < run.drawn.directions.size(); ++k) {
+        const vec3 direction = run.drawn.directions[k];
         const bool above = kernel::leaves_surface(normal, direction);
         counts.below += !above;
         const kernel::Decision decision = has_cell
@@ -66,7 +66,7 @@ void sort_samples(const Picture& picture, std::size_t pixel, WaitingRays& waitin
         waiting.add(start, direction, k);
         ++traced;
     }
-    counts.samples += run.samples.size();
+    counts.samples += run.drawn.directions.size();
     counts.traced += traced;
     if (!has_cell) counts.outside += traced;
     picture.result.rays_traced.pixels[pixel] = traced;
@@ -89,7 +89,7 @@ void answer(const Picture& picture, WaitingRays& waiting, SampleCounts& counts) 
         waiting.runs[waiting.run[k]].blocked[waiting.sample[k] / 32] |= 1u << (waiting.sample[k] % 32);
     }
     for (const WaitingRays::Run& run : waiting.runs)
-        resolve_weighted(picture.request, run.pixel, run.samples, run.blocked, picture.result);
+        resolve_weighted(picture.request, run.pixel, run.drawn, run.blocked, picture.result);
 }
 
 }  // namespace

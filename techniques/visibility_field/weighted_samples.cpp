@@ -6,7 +6,6 @@
 
 #include "shaders/hemisphere.h"
 #include "techniques/base/hammersley.h"
-#include "techniques/visibility_field/glossy.h"
 #include "techniques/visibility_field/map_sampling.h"
 
 namespace sightlines::visibility_field {
@@ -14,27 +13,8 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-/// What is known of a pixel before its samples.
-struct Pixel {
-    vec3 normal, shading_normal;
-    scalar_kernel::HemisphereFrame frame;
-    vec3 to_eye;  ///< in the frame
-    Gloss gloss;
-    vec2 shift;  ///< of the numbers that samples are drawn by
-
-    vec3 local(vec3 direction) const {
-        return {glm::dot(frame.tangent, direction), glm::dot(frame.bitangent, direction),
-                glm::dot(frame.normal, direction)};
-    }
-    vec3 world(vec3 direction) const {
-        return direction.x * frame.tangent + direction.y * frame.bitangent + direction.z * frame.normal;
-    }
-};
-
-/// How many samples are drawn each way.
-struct Ways {
-    std::uint32_t cosine = 0, mirrored = 0, map = 0;
-};
+using Pixel = DrawnPixel;
+using Ways = DrawnPixel::Ways;
 
 vec3 towards_eye(const SurfaceBuffer& surfaces, std::size_t pixel) {
     const Camera& camera = surfaces.camera;
@@ -52,14 +32,14 @@ Pixel make_pixel(const EnvironmentRequest& request, std::size_t index) {
     const std::size_t tile = pattern.tile_place(x, y);
     Pixel pixel;
     pixel.normal = surfaces.normal[index];
-    pixel.shading_normal = surfaces.shading_normal[index];
-    pixel.frame =
+    const scalar_kernel::HemisphereFrame frame =
         scalar_kernel::frame_about(surfaces.shading_normal[index], pattern.turns[tile].x, pattern.turns[tile].y);
+    pixel.world_from_surface = mat3(frame.tangent, frame.bitangent, frame.normal);
     // The same noise from elsewhere: unlike what is here, but as even.
     pixel.shift = {pattern.share[pattern.tile_place(x + 23, y + 41)],
                    pattern.share[pattern.tile_place(x + 47, y + 11)]};
     if (!request.glossy) return pixel;
-    pixel.to_eye = pixel.local(towards_eye(surfaces, index));
+    pixel.to_eye = towards_eye(surfaces, index) * pixel.world_from_surface;
     pixel.to_eye = glm::normalize(vec3(pixel.to_eye.x, pixel.to_eye.y, std::max(pixel.to_eye.z, 1.0e-3f)));
     const vec2 own = surfaces.gloss.empty() ? vec2(1.0f, 0.0f) : surfaces.gloss[index];
     pixel.gloss = make_gloss(surfaces.albedo[index], request.roughness > 0.0f ? request.roughness : own.x, own.y);
@@ -88,53 +68,68 @@ vec2 shifted(vec2 numbers, vec2 shift) {
     return glm::min(glm::fract(numbers + shift), vec2(0.99999994f));
 }
 
-PixelSample weighed(const EnvironmentRequest& request, const Pixel& pixel, const Ways& ways, vec3 direction) {
-    const vec3 local = pixel.local(direction);
-    if (local.z <= 0.0f || glm::dot(pixel.normal, direction) <= 0.0f) return {-pixel.normal, vec3(0.0f)};
+/// A direction that counts, or one into the surface.
+vec3 checked(const Pixel& pixel, vec3 direction) {
+    const bool leaves =
+        glm::dot(pixel.world_from_surface[2], direction) > 0.0f && glm::dot(pixel.normal, direction) > 0.0f;
+    return leaves ? direction : -pixel.normal;
+}
+
+/// What a sample of this direction, which leaves the surface, adds where nothing is in the way.
+vec3 weighed(const EnvironmentRequest& request, const Pixel& pixel, vec3 direction) {
+    const Ways& ways = pixel.ways;
+    const vec3 local = direction * pixel.world_from_surface;  // turned by the inverse
     const vec3 light = light_from(request, direction);
     const auto samples = static_cast<float>(request.pattern->samples);
-    if (!request.glossy && ways.map == 0) return {direction, pi / samples * light};
+    if (!request.glossy && ways.map == 0) return pi / samples * light;
     float density = static_cast<float>(ways.cosine) * local.z / pi;
     if (ways.mirrored > 0)
         density += static_cast<float>(ways.mirrored) * mirrored_density(pixel.gloss.width, pixel.to_eye, local);
     if (ways.map > 0) density += static_cast<float>(ways.map) * drawn_density(*request.distribution, direction);
-    if (!(density > 0.0f)) return {-pixel.normal, vec3(0.0f)};
+    if (!(density > 0.0f)) return vec3(0.0f);
     const vec3 reflected = request.glossy ? pi * reflected_share(pixel.gloss, pixel.to_eye, local) : vec3(1.0f);
-    return {direction, reflected * light * (local.z / density)};
+    return reflected * light * (local.z / density);
 }
 
 }  // namespace
 
-std::vector<PixelSample> weighted_samples(const EnvironmentRequest& request, std::size_t index) {
-    const Pixel pixel = make_pixel(request, index);
-    const Ways ways = ways_of(request, pixel);
-    std::vector<PixelSample> samples;
-    samples.reserve(static_cast<std::size_t>(request.pattern->samples));
+DrawnPixel draw_samples(const EnvironmentRequest& request, std::size_t index) {
+    DrawnPixel pixel = make_pixel(request, index);
+    pixel.ways = ways_of(request, pixel);
+    const Ways& ways = pixel.ways;
+    pixel.directions.reserve(static_cast<std::size_t>(request.pattern->samples));
+    const auto add = [&](vec3 direction) { pixel.directions.push_back(checked(pixel, direction)); };
     for (std::uint32_t k = 0; k < ways.cosine; ++k)
-        samples.push_back(weighed(request, pixel, ways, pixel.world(cosine_direction(hammersley(k, ways.cosine)))));
+        add(pixel.world_from_surface * cosine_direction(hammersley(k, ways.cosine)));
     for (std::uint32_t k = 0; k < ways.mirrored; ++k) {
         const vec2 numbers = shifted(hammersley(k, ways.mirrored), pixel.shift);
-        samples.push_back(
-            weighed(request, pixel, ways, pixel.world(mirrored_sample(pixel.gloss.width, pixel.to_eye, numbers))));
+        add(pixel.world_from_surface * mirrored_sample(pixel.gloss.width, pixel.to_eye, numbers));
     }
     for (std::uint32_t k = 0; k < ways.map; ++k)
-        samples.push_back(
-            weighed(request, pixel, ways,
-                    drawn_direction(*request.distribution, shifted(hammersley(k, ways.map), pixel.shift))));
+        add(drawn_direction(*request.distribution, shifted(hammersley(k, ways.map), pixel.shift)));
+    return pixel;
+}
+
+std::vector<PixelSample> weighted_samples(const EnvironmentRequest& request, std::size_t index) {
+    const DrawnPixel pixel = draw_samples(request, index);
+    std::vector<PixelSample> samples;
+    for (const vec3 direction : pixel.directions) {
+        const bool counts = scalar_kernel::leaves_surface(pixel.normal, direction);
+        samples.push_back({direction, counts ? weighed(request, pixel, direction) : vec3(0.0f)});
+    }
     return samples;
 }
 
-void resolve_weighted(const EnvironmentRequest& request, std::size_t pixel, const std::vector<PixelSample>& samples,
+void resolve_weighted(const EnvironmentRequest& request, std::size_t pixel, const DrawnPixel& drawn,
                       std::span<const std::uint32_t> blocked, EnvironmentResult& result) {
-    const SurfaceBuffer& surfaces = *request.surfaces;
     vec3 irradiance(0.0f);
     std::uint32_t asked = 0, in_the_way = 0;
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-        if (!scalar_kernel::leaves_surface(surfaces.normal[pixel], samples[k].direction)) continue;
+    for (std::size_t k = 0; k < drawn.directions.size(); ++k) {
+        if (!scalar_kernel::leaves_surface(drawn.normal, drawn.directions[k])) continue;
         ++asked;
         const bool is_blocked = (blocked[k / 32] >> (k % 32) & 1u) != 0;
         in_the_way += is_blocked;
-        if (!is_blocked) irradiance += samples[k].adds;
+        if (!is_blocked) irradiance += weighed(request, drawn, drawn.directions[k]);
         if (is_blocked && request.keep_verdicts)
             result.verdicts.words[pixel * result.verdicts.words_per_pixel + k / 32] |= 1u << (k % 32);
     }
