@@ -19,7 +19,7 @@ enum class LabelRule { texels, smaller };
 struct BakeOptions {
     float cell_m = 0.5f;               ///< side of a grid cell
     int mask_size = 18;                ///< texels along a side of each mask, 8 to 64
-    std::uint32_t points = 1'000'000;  ///< point samples; a stratified bake may take a few more
+    std::uint32_t points = 2'000'000;  ///< point samples; a stratified bake may take a few more
     int rays = 128;                    ///< from each point sample, 1 to 4,096
     float dilation = 1.0f / 3.0f;      ///< texels, 0 to 2, in steps of 1 / casting_steps; 1 in the paper
     Placement placement = Placement::stratified;
