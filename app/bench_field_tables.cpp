@@ -166,7 +166,7 @@ void field_by_samples(MeasuredTable& table, BenchRun& run, Results& results, Pro
 
 void field_labels(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress) {
     FieldMeasuring m{table, run, results, progress};
-    for (const std::string& name : field_scenes(m, "garden")) {
+    for (const std::string& name : field_scenes(m, "street")) {
         const auto scene = field_scene(m, name);
         FieldWay labels = field_ways(run, results).front();
         say(run, table, scene->label);
@@ -186,7 +186,7 @@ void field_labels(MeasuredTable& table, BenchRun& run, Results& results, Progres
     finish_field_table(m, {}, "");
     table.notes.emplace_back(
         "Without labels only visible regions are traced. The paper looks at the bistro's roofs, "
-        "where the sky is wide; ours, unless a scene is given, is the garden. The paper's times stand in its picture.");
+        "where the sky is wide; ours, unless a scene is given, is the street. The paper's times stand in its picture.");
 }
 
 void field_glossy(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress) {
