@@ -64,6 +64,19 @@ void add_empty_cells_note(MeasuredTable& table) {
         "In cells that no point fell into every ray is traced: few points at random cost time there.");
 }
 
+/// Bakes, and adds everything about a picture by that field.
+void add_picture(FieldMeasuring& m, const FieldScene& scene, const FieldWay& way, int samples) {
+    say(m.run, m.table, scene.label + way.suffix);
+    const auto field = bake_field(m, scene, way.bake);
+    if (!field) return;
+    const FieldMeasurement got = measure_field(m, scene, *field, way, samples);
+    add_field_figure(m, scene, way, time_without, 1e3 * got.seconds_without);
+    add_field_figure(m, scene, way, time_with, 1e3 * got.seconds_with);
+    add_field_figure(m, scene, way, speed_up, got.speed_up());
+    add_field_figure(m, scene, way, rmse, got.error.rmse_percent());
+    add_field_figure(m, scene, way, rays, rays_percent(got.with));
+}
+
 }  // namespace
 
 void field_speed_ups(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress) {
@@ -82,15 +95,7 @@ void field_pictures(MeasuredTable& table, BenchRun& run, Results& results, Progr
     for (const std::string& name : field_scenes(m, "atrium")) {
         const auto scene = field_scene(m, name);
         for (const FieldWay& way : field_ways(run, results)) {
-            say(run, table, scene->label + way.suffix);
-            const auto field = bake_field(m, *scene, way.bake);
-            if (!field) continue;
-            const FieldMeasurement got = measure_field(m, *scene, *field, way, field_samples(run, 5));
-            add_field_figure(m, *scene, way, time_without, 1e3 * got.seconds_without);
-            add_field_figure(m, *scene, way, time_with, 1e3 * got.seconds_with);
-            add_field_figure(m, *scene, way, speed_up, got.speed_up());
-            add_field_figure(m, *scene, way, rmse, got.error.rmse_percent());
-            add_field_figure(m, *scene, way, rays, rays_percent(got.with));
+            add_picture(m, *scene, way, field_samples(run, 5));
         }
     }
     finish_field_table(m, {time_without, time_with, speed_up}, "");
@@ -195,15 +200,7 @@ void field_glossy(MeasuredTable& table, BenchRun& run, Results& results, Progres
         const auto scene = field_scene(m, name);
         for (FieldWay way : field_ways(run, results)) {
             way.roughness = 0.3f;
-            say(run, table, scene->label + way.suffix);
-            const auto field = bake_field(m, *scene, way.bake);
-            if (!field) continue;
-            const FieldMeasurement got = measure_field(m, *scene, *field, way, field_samples(run, 10));
-            add_field_figure(m, *scene, way, time_without, 1e3 * got.seconds_without);
-            add_field_figure(m, *scene, way, time_with, 1e3 * got.seconds_with);
-            add_field_figure(m, *scene, way, speed_up, got.speed_up());
-            add_field_figure(m, *scene, way, rmse, got.error.rmse_percent());
-            add_field_figure(m, *scene, way, rays, rays_percent(got.with));
+            add_picture(m, *scene, way, field_samples(run, 10));
         }
     }
     finish_field_table(m, {time_without, time_with, speed_up}, "");

@@ -7,6 +7,7 @@
 
 #include "shaders/voxel_row_objects.h"
 #include "shaders/voxel_rows.h"
+#include "shaders/voxel_rows_first_hit.h"
 #include "techniques/rays/light_records.h"
 #include "techniques/voxel_rows/query.h"
 #include "techniques/voxel_rows/voxel_rows.h"
@@ -49,7 +50,8 @@ bool holds(const TraceStep& step, std::string_view name) {
     return std::ranges::find(step.values, name, &TraceValue::name) != step.values.end();
 }
 
-/// Boxes of the rows and of the voxels kept of them. `world` is that of the voxels in the frame of the steps.
+/// Boxes of the rows, of the voxels kept of them, and of the part that a search for the first hit goes on in. `world`
+/// is that of the voxels in the frame of the steps.
 void add_rows(std::span<TraceStep> steps, const mat4& world, int resolution) {
     int v = 0, w = 0;
     for (TraceStep& step : steps) {
@@ -62,6 +64,9 @@ void add_rows(std::span<TraceStep> steps, const mat4& world, int resolution) {
         if (step.paper == "Algorithm 3, line 4")
             step.geometry.push_back(row_box("extent", world, v, w, static_cast<int>(whole_value(step, "span.first")),
                                             static_cast<int>(whole_value(step, "span.last"))));
+        if (step.paper == "Section 7, binary search")
+            step.geometry.push_back(row_box("searched", world, v, w, static_cast<int>(whole_value(step, "low")),
+                                            static_cast<int>(whole_value(step, "high"))));
     }
 }
 
@@ -134,6 +139,27 @@ void add_objects(Trace& trace, const TraceRequest& request, const Objects& objec
     std::ranges::move(steps, std::back_inserter(trace.steps));
 }
 
+/// Section 7: after whether the ray is blocked, where; nothing where no voxel is met.
+void add_first_hit(Trace& trace, const TraceRequest& request, const RowArray& array, const RowShape& query,
+                   const mat4& world) {
+    const vec3 origin = kernel::ray_origin(query, trace.ray.origin, request.normal);
+    std::vector<TraceStep> steps;
+    kernel::RowHit found{};
+    {
+        kernel::Recording recording;
+        found =
+            kernel::first_hit(query, {array.grid.frames.data()}, {array.words.words.data()}, origin, trace.ray.target);
+        steps = std::move(recording.steps);
+    }
+    if (!found.hit) return;
+    add_rows(steps, world, array.grid.resolution);
+    const vec3 along = trace.ray.target - trace.ray.origin;
+    TraceStep& last = steps.back();
+    last.values.push_back({"distance", static_cast<double>(found.share * glm::length(along)), "m"});
+    last.geometry.push_back({"first hit", TraceShape::point, {trace.ray.origin + found.share * along}});
+    std::ranges::move(steps, std::back_inserter(trace.steps));
+}
+
 }  // namespace
 
 ServedRay serve(const RowArray& array, const TraceRequest& request) {
@@ -179,7 +205,10 @@ Trace trace(const RowArray& array, const TraceRequest& request, const Objects& o
             kernel::is_blocked(query, {array.grid.frames.data()}, {array.words.words.data()}, origin, trace.ray.target);
         trace.steps = std::move(recording.steps);
     }
-    add_geometry(trace.steps, array, serve(array, request));
+    const ServedRay served = serve(array, request);
+    add_geometry(trace.steps, array, served);
+    if (parameter_value(technique().parameters, request.parameters, "first_hits") != 0.0)
+        add_first_hit(trace, request, array, query, world_from_voxels(array.grid, served.direction));
     if (!trace.blocked && !objects.empty()) add_objects(trace, request, objects);
     return trace;
 }

@@ -1,11 +1,13 @@
 // The recorded ray is the rendered ray.
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "techniques/voxel_rows/dictionary.h"
+#include "techniques/voxel_rows/first_hits.h"
 #include "techniques/voxel_rows/query.h"
 #include "techniques/voxel_rows/voxel_rows.h"
 #include "tests/voxel_rows/scenes.h"
@@ -41,6 +43,43 @@ T value_of(const Trace& trace, std::string_view paper, std::string_view name) {
             if (step.paper == paper && value.name == name) return std::get<T>(value.value);
     ADD_FAILURE() << "no " << name << " in " << paper;
     return {};
+}
+
+TEST(VoxelRowsTrace, ShowsTheSearchForTheFirstHitWhereFirstHitsAreAsked) {
+    const Fixture fixture;
+    int found = 0;
+    for (std::uint32_t k = 0; k < 300; ++k) {
+        TraceRequest request = fixture.request(k);
+        const Trace plain = trace(fixture.array, request);
+        request.parameters["first_hits"] = 1.0;
+        const Trace searched = trace(fixture.array, request);
+        EXPECT_EQ(searched.blocked, plain.blocked);
+        const RowShape query = make_query(fixture.array, request.parameters, std::span(&request.light, 1));
+        const float distance_m =
+            first_hit(fixture.array, query, {request.position, request.light.position}, request.normal);
+        if (std::isinf(distance_m)) {
+            EXPECT_EQ(searched.steps.size(), plain.steps.size());
+            continue;
+        }
+        ++found;
+        EXPECT_NEAR(value_of<double>(searched, "Section 7, distance", "distance"), distance_m, 1e-5f);
+        // Each part that is searched lies in the one before; the last is one voxel, and the hit its middle.
+        std::int64_t low = 0, high = 99;
+        for (const TraceStep& step : searched.steps) {
+            if (step.paper != "Section 7, binary search") continue;
+            const auto bound = [&](std::string_view name) {
+                return std::get<std::int64_t>(std::ranges::find(step.values, name, &TraceValue::name)->value);
+            };
+            EXPECT_TRUE(low <= bound("low") && bound("low") <= bound("high") && bound("high") <= high);
+            low = bound("low");
+            high = bound("high");
+            EXPECT_EQ(step.geometry.back().name, "searched");
+        }
+        EXPECT_EQ(low, high);
+        EXPECT_EQ(searched.steps.back().geometry.back().name, "first hit");
+    }
+    EXPECT_GT(found, 30);
+    EXPECT_LT(found, 290);
 }
 
 TEST(VoxelRowsTrace, EndsWithTheVerdictOfTheRenderingKernel) {
