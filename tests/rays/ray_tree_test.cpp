@@ -2,8 +2,10 @@
 // its scalar compilation.
 #include "techniques/rays/ray_tree.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -211,7 +213,7 @@ template <class T>
 compute::Buffer buffer_of(const std::shared_ptr<const compute::Device>& device, const std::vector<T>& values) {
     const std::size_t bytes = std::max<std::size_t>(values.size() * sizeof(T), 16);
     compute::Buffer buffer = compute::make_buffer(device, bytes, compute::MemoryPlace::host);
-    std::memcpy(buffer.mapped.data(), values.data(), values.size() * sizeof(T));
+    std::ranges::copy(std::as_bytes(std::span(values)), buffer.mapped.begin());
     return buffer;
 }
 
