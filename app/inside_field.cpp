@@ -4,7 +4,7 @@
 #include <array>
 
 #include "app/inside.h"
-#include "shaders/octahedral.h"
+#include "shaders/visibility_field.h"
 #include "techniques/visibility_field/visibility_field.h"
 #include "visualizers/mask_merging.h"
 
@@ -16,35 +16,32 @@ using visibility_field::OccupiedCell;
 
 /// The cell that is shown, and the texel of its masks that holds the ray's direction.
 struct ShownCell {
+    std::uint32_t index = scalar_kernel::no_cell;  ///< no_cell: it holds no masks
     ivec3 place{0};
-    std::optional<OccupiedCell> occupied;  ///< none where it holds no masks
     ivec2 texel{0};
     bool picked = false;
 };
 
-ivec2 texel_of(vec3 direction, int mask_size) {
-    const auto texel = scalar_kernel::octahedral_texel(scalar_kernel::octahedral_place(direction), mask_size);
-    return {texel.column, texel.row};
+bool is_in_grid(const FieldShape& shape, ivec3 place) {
+    return glm::all(glm::greaterThanEqual(place, ivec3(0))) &&
+           glm::all(glm::lessThan(place, ivec3(shape.cells_x, shape.cells_y, shape.cells_z)));
 }
 
 ShownCell shown_cell(const BuiltField& built, const Session& session, const SelectedRay& ray) {
-    const TraceRequest& request = ray.request;
-    const vec3 direction = -request.light.direction;
+    const FieldShape& shape = built.field.shape;
+    const scalar_kernel::Bricks bricks{built.field.bricks.data()};
+    const int texel = scalar_kernel::texel_of(shape, -ray.request.light.direction);
     ShownCell shown;
-    shown.texel = texel_of(direction, built.field.shape.mask_size);
-    const auto cells = occupied_cells(built.field);
-    const auto find = [&](ivec3 place) {
-        shown.place = place;
-        const auto found = std::ranges::find(cells, place, &OccupiedCell::place);
-        if (found != cells.end()) shown.occupied = *found;
+    shown.texel = {texel % shape.mask_size, texel / shape.mask_size};
+    const auto take = [&](const scalar_kernel::FieldCell& cell) {
+        shown.index = cell.index;
+        shown.place = {cell.x, cell.y, cell.z};
+        return cell.index != scalar_kernel::no_cell;
     };
-    if (session.selection.voxel) find(*session.selection.voxel);
-    shown.picked = shown.occupied.has_value();
-    if (shown.picked) return shown;
-    const visibility_field::SampleTrace traced =
-        trace_sample(built.field, *built.embree, visibility_field::culling_of(request.parameters),
-                     {request.position, request.normal, direction, vec3(0.0f)});
-    if (traced.fate != visibility_field::Fate::outside_cells) find(traced.cell);
+    const std::optional<ivec3> voxel = session.selection.voxel;
+    shown.picked = voxel && is_in_grid(shape, *voxel) &&
+                   take(scalar_kernel::find_cell(shape, bricks, voxel->x, voxel->y, voxel->z));
+    if (!shown.picked) take(scalar_kernel::locate_cell(shape, bricks, ray.request.position, ray.request.normal));
     return shown;
 }
 
@@ -73,8 +70,7 @@ void add_masks(RayPicture& picture, const BuiltField& built, const ShownCell& sh
                                                   : std::array<std::string, 2>{"visibility mask", "occlusion mask"};
     for (const int which : {0, 1})
         picture.maps.push_back(mask_map(titles[static_cast<std::size_t>(which)],
-                                        bits_of(mask_words(built.field, shown.occupied->index, which), side), side,
-                                        shown.texel));
+                                        bits_of(mask_words(built.field, shown.index, which), side), side, shown.texel));
     picture.patches = folded(picture.maps[0], picture.maps[1], *picture.cell);
 }
 
@@ -148,7 +144,7 @@ void add_field(RayPicture& picture, const Session& session, const SelectedRay& r
     picture.boxes_title = "cells, from visible to occluded";
     picture.boxes_graded = true;
     const ShownCell shown = shown_cell(built, session, ray);
-    if (!shown.occupied) return;
+    if (shown.index == scalar_kernel::no_cell) return;
     picture.cell = visibility_field::cell_box(built.field.shape, shown.place);
     if (shown.picked) picture.pointed.push_back(box_geometry("picked cell", *picture.cell));
     const std::string_view figure = shown_figure(session);

@@ -145,10 +145,10 @@ std::vector<std::uint8_t> dictionary_figure(VoxelRowView& view, const Dictionary
     return finished_file(page.canvas);
 }
 
-std::vector<std::uint8_t> ray_figure(RayView& view, const RayPicture& whole, const ViewState& state,
+std::vector<std::uint8_t> ray_figure(RayView& view, const RayPicture& picture, const ViewState& state,
                                      CanvasFormat format, const FigureOptions& options) {
     check_options(options);
-    const RayPicture picture = merged_until(whole, state.merged_samples);
+    if (picture.samples) return ray_figure(view, merged_until(picture, state.merged_samples), state, format, options);
     const float width = page_width(options);
     Page page = make_page(format, state, options, 0.54f, map_panel_height(picture, {width, width}, text_height));
     draw_solid(page, view, picture, state);

@@ -122,20 +122,16 @@ OrbitCamera shown_camera(const InsidePicture& picture, const ViewState& state, I
     return shown_camera(*rows_in_space(picture), state, in_space);
 }
 
-InsidePicture at_state(const InsidePicture& picture, const ViewState& state) {
-    const auto* const ray = std::get_if<RayPicture>(&picture);
-    return ray != nullptr ? merged_until(*ray, state.merged_samples) : picture;
-}
-
 bool same_solid(const InsidePicture& a, const InsidePicture& b) {
     if (a.index() != b.index()) return false;
     if (const auto* ray = std::get_if<RayPicture>(&a)) return is_same_solid(*ray, std::get<RayPicture>(b));
     return is_same_solid(*rows_in_space(a), *rows_in_space(b));
 }
 
-ImageRgba8 render(InsideView& view, const InsidePicture& whole, const ViewState& state, const LitGeometry& lit,
+ImageRgba8 render(InsideView& view, const InsidePicture& picture, const ViewState& state, const LitGeometry& lit,
                   ImageSize size, int samples_per_axis, float text_scale) {
-    const InsidePicture picture = at_state(whole, state);
+    if (const auto* ray = std::get_if<RayPicture>(&picture); ray != nullptr && ray->samples)
+        return render(view, merged_until(*ray, state.merged_samples), state, lit, size, samples_per_axis, text_scale);
     const auto* dictionary = std::get_if<DictionaryPicture>(&picture);
     const ImageSize in_space = size_in_space(picture, size, text_scale);
     Canvas canvas = make_picture_canvas(solid_part(view, picture, state, in_space, samples_per_axis));

@@ -52,9 +52,6 @@ OrbitCamera shown_camera(const InsidePicture& picture, const ViewState& state, I
 ImageRgba8 render(InsideView& view, const InsidePicture& picture, const ViewState& state, const LitGeometry& lit,
                   ImageSize size, int samples_per_axis, float text_scale);
 
-/// What of a picture a state shows: as many of a cell's samples as are merged so far.
-InsidePicture at_state(const InsidePicture& picture, const ViewState& state);
-
 /// Whether both are the same solid part: drawing one after the other draws only the marks anew.
 bool same_solid(const InsidePicture& a, const InsidePicture& b);
 

@@ -29,8 +29,9 @@ std::vector<ValuedPatch> folded(const PictureMap& visible, const PictureMap& occ
 }
 
 RayPicture merged_until(const RayPicture& picture, int merged) {
-    if (!picture.samples || picture.samples->empty()) return picture;
     RayPicture made = picture;
+    made.samples.reset();
+    if (!picture.samples || picture.samples->empty()) return made;
     const auto& samples = *picture.samples;
     const std::size_t count = std::min(static_cast<std::size_t>(std::max(merged, 1)), samples.size());
     std::array<PictureMap*, 4> maps{};

@@ -9,7 +9,7 @@ namespace sightlines {
 std::vector<ValuedPatch> folded(const PictureMap& visible, const PictureMap& occluded, const Box3& cell);
 
 /// The picture after the first `merged` samples (1 to all; clamped): the masks of the latest by itself and of all so
-/// far, those directions on the sphere, the samples in space. As it is where it has no samples.
+/// far, those directions on the sphere, the samples in space. The made picture has no samples to merge any more.
 RayPicture merged_until(const RayPicture& picture, int merged);
 
 }  // namespace sightlines

@@ -155,10 +155,9 @@ void add_chimney(Mesh& mesh, vec3 foot, Draws& draws) {
     }
 }
 
-}  // namespace
-
-std::vector<Material> materials() {
-    std::vector<Material> all = {
+/// Those before first_wall, in the order of MaterialIndex.
+std::vector<Material> named_materials() {
+    return {
         diffuse("cobble", {0.25f, 0.24f, 0.23f}, 0.7f),
         diffuse("warm cobble", {0.29f, 0.255f, 0.22f}, 0.7f),
         diffuse("dark cobble", {0.18f, 0.18f, 0.185f}, 0.6f),
@@ -208,6 +207,12 @@ std::vector<Material> materials() {
         diffuse("pink petal", {0.76f, 0.25f, 0.36f}),
         diffuse("white petal", {0.86f, 0.85f, 0.80f}),
     };
+}
+
+}  // namespace
+
+std::vector<Material> materials() {
+    std::vector<Material> all = named_materials();
     all[iron].metallic = all[brass].metallic = all[zinc].metallic = 1.0f;
     constexpr std::array<vec3, wall_tones> walls = {
         vec3(0.66f, 0.59f, 0.46f), vec3(0.60f, 0.50f, 0.36f), vec3(0.70f, 0.64f, 0.54f), vec3(0.56f, 0.53f, 0.47f),

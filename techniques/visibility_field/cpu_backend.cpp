@@ -330,14 +330,6 @@ SampleCounts ask_tile(const TileWork& work, int left, int top) {
     return counts;
 }
 
-void add(SampleCounts& sum, const SampleCounts& counts) {
-    sum.samples += counts.samples;
-    sum.below += counts.below;
-    sum.traced += counts.traced;
-    sum.traced_blocked += counts.traced_blocked;
-    sum.outside += counts.outside;
-}
-
 /// All tiles of the picture; counts into `result`.
 void ask_picture(const TileWork& work, Progress& progress) {
     const ImageSize size = work.request.surfaces->size;

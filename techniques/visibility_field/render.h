@@ -85,6 +85,8 @@ struct SampleCounts {
     bool operator==(const SampleCounts&) const = default;
 };
 
+void add(SampleCounts& sum, const SampleCounts& counts);
+
 /// Pictures of the surfaces' size; the background is black and traces nothing.
 struct EnvironmentResult {
     ImageRgb irradiance;               ///< W/m^2; of glossy surfaces pi times what they reflect

@@ -37,6 +37,14 @@ vec3 reflected_radiance(const EnvironmentRequest& request, std::size_t pixel, ve
     return surfaces.emission[pixel] + share * std::numbers::inv_pi_v<float> * irradiance;
 }
 
+void add(SampleCounts& sum, const SampleCounts& counts) {
+    sum.samples += counts.samples;
+    sum.below += counts.below;
+    sum.traced += counts.traced;
+    sum.traced_blocked += counts.traced_blocked;
+    sum.outside += counts.outside;
+}
+
 EnvironmentResult blank_environment(const EnvironmentRequest& request) {
     const ImageSize size = request.surfaces->size;
     EnvironmentResult result;

@@ -70,9 +70,8 @@ constexpr std::array<Parameter, 17> parameters{{
     {"roughness", "Roughness", "", ParameterKind::real, ParameterAffects::picture, 0, 1, 0, std::nullopt,
      "Of all glossy surfaces; 0 leaves each material its own."},
     {"sampling", "Sampling", "", ParameterKind::choice, ParameterAffects::picture, 0, 3, 0, 0,
-     "Samples are drawn by the cosine, by what the surface reflects, by the map of the surroundings, or half by map "
-     "and "
-     "half by surface.",
+     "Samples are drawn by the cosine, by what the surface reflects, by the map of the surroundings, or half by the "
+     "map and half by the surface.",
      samplings},
     {"light_from", "Light from", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 0, 0,
      "The surroundings as harmonics of order 3, or the map itself with all its contrasts.", light_sources},

@@ -112,11 +112,7 @@ EnvironmentResult render_weighted(const VisibilityField* field, const EmbreeScen
         answer(picture, waiting, counts);
         {
             const std::lock_guard lock(sum_mutex);
-            result.counts.samples += counts.samples;
-            result.counts.below += counts.below;
-            result.counts.traced += counts.traced;
-            result.counts.traced_blocked += counts.traced_blocked;
-            result.counts.outside += counts.outside;
+            add(result.counts, counts);
             if (request.on_region) request.on_region(result, {0, static_cast<int>(row), size.width, 1});
         }
         progress.advance();
