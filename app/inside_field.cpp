@@ -77,8 +77,7 @@ void add_masks(RayPicture& picture, const BuiltField& built, const ShownCell& sh
 /// The cell's point samples, each with its own masks, for merged_until.
 void add_merging(RayPicture& picture, const BuiltField& built, const ShownCell& shown) {
     const int side = built.field.shape.mask_size;
-    const visibility_field::CellSteps steps =
-        bake_steps(built.points, built.field.shape, *built.embree, built.options, shown.place);
+    const visibility_field::CellSteps steps = bake_steps(samples_of(built, shown.place), *built.embree, built.options);
     std::vector<CellSample> samples;
     for (std::size_t k = 0; k < steps.visible.size(); ++k)
         samples.push_back({steps.points.points[k].position, steps.points.points[k].normal,

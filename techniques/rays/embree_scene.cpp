@@ -58,10 +58,11 @@ Solidity solidity(const Scene& scene, const Material& material) {
     return material.alpha >= material.alpha_cutoff ? Solidity::opaque : Solidity::invisible;
 }
 
-/// Sorts the triangles into the two geometries and copies what the masks need.
-void sort_triangles(const Scene& scene, EmbreeScene& embree) {
+/// Sorts the wanted triangles into the two geometries and copies what the masks need.
+void sort_triangles(const Scene& scene, const std::vector<std::uint8_t>& wanted, EmbreeScene& embree) {
     std::map<std::uint32_t, std::uint32_t> mask_of_material;
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        if (wanted[t] == 0) continue;
         const std::uint32_t material_index = scene.triangle_materials[t];
         const Material& material = scene.materials[material_index];
         const Solidity kind = solidity(scene, material);
@@ -114,6 +115,23 @@ void attach_geometry(const Scene& scene, EmbreeScene& embree, unsigned id) {
     check_embree(embree);
 }
 
+Box3 bounds_of(const Scene& scene, const std::vector<std::uint8_t>& wanted) {
+    Box3 bounds;
+    for (std::size_t t = 0; t < wanted.size(); ++t)
+        for (int corner = 0; wanted[t] != 0 && corner < 3; ++corner)
+            bounds.add(scene.positions[scene.triangles[t][corner]]);
+    return bounds;
+}
+
+void set_extents(const Box3& bounds, EmbreeScene& embree) {
+    if (bounds.empty()) return;
+    const vec3 coordinates = glm::max(glm::abs(bounds.lowest), glm::abs(bounds.highest));
+    const float diagonal = bounds.diagonal();
+    if (diagonal > 0.0f) embree.reach_m = diagonal;
+    embree.extent_m =
+        std::max({diagonal, coordinates.x, coordinates.y, coordinates.z, std::numeric_limits<float>::min()});
+}
+
 /// Passes Embree's own progress on, and our wish to stop back.
 struct BuildMonitor {
     Progress& progress;
@@ -155,7 +173,7 @@ RTCRayHit ray_hit(vec3 origin, vec3 direction, float nearest, float farthest) {
 }  // namespace
 
 std::shared_ptr<const EmbreeScene> build_embree_scene(const Scene& scene, EmbreeUse use, int threads,
-                                                      Progress& progress) {
+                                                      Progress& progress, PartChoice parts) {
     progress.begin("building the ray tracer's hierarchy", 100);
     progress.check();
     const auto embree = std::make_shared<EmbreeScene>();
@@ -172,14 +190,9 @@ std::shared_ptr<const EmbreeScene> build_embree_scene(const Scene& scene, Embree
 
     embree->positions = scene.positions;
     embree->positions.emplace_back(0.0f);
-    if (!scene.bounds.empty()) {
-        const vec3 coordinates = glm::max(glm::abs(scene.bounds.lowest), glm::abs(scene.bounds.highest));
-        const float diagonal = scene.bounds.diagonal();
-        if (diagonal > 0.0f) embree->reach_m = diagonal;
-        embree->extent_m =
-            std::max({diagonal, coordinates.x, coordinates.y, coordinates.z, std::numeric_limits<float>::min()});
-    }
-    sort_triangles(scene, *embree);
+    const std::vector<std::uint8_t> wanted = triangles_of(scene, parts);
+    set_extents(parts == PartChoice::all ? scene.bounds : bounds_of(scene, wanted), *embree);
+    sort_triangles(scene, wanted, *embree);
     attach_geometry(scene, *embree, opaque_geometry);
     attach_geometry(scene, *embree, masked_geometry);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "techniques/base/progress.h"
+#include "techniques/scene/moving_parts.h"
 #include "techniques/scene/scene.h"
 #include "techniques/scene/surface_buffer.h"
 
@@ -19,9 +20,10 @@ struct EmbreeScene;  // hides Embree's handles; immutable, shared between thread
 
 /// The tree over all triangles. Alpha-masked ones have holes where their texture says so, for both uses; blended ones
 /// count as opaque. Keeps copies of what it needs: the Scene may go before it does. A scene without triangles gives a
-/// tree that nothing hits. EnvironmentError where Embree fails or memory runs out.
+/// tree that nothing hits. `parts`: of these alone, as if the scene held nothing else. EnvironmentError where Embree
+/// fails or memory runs out.
 std::shared_ptr<const EmbreeScene> build_embree_scene(const Scene& scene, EmbreeUse use, int threads,
-                                                      Progress& progress);
+                                                      Progress& progress, PartChoice parts = PartChoice::all);
 
 struct Hit {
     float distance_m = 0.0f;

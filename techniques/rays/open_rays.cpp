@@ -12,9 +12,9 @@ constexpr std::size_t packet_lanes = 16;
 
 }  // namespace
 
-vec3 lifted_off(const EmbreeScene& embree, vec3 position, vec3 normal) {
-    return position + surface_offset_m(embree) * normal;
-}
+float lift_m(const EmbreeScene& embree) { return surface_offset_m(embree); }
+
+vec3 lifted_off(const EmbreeScene& embree, vec3 position, vec3 normal) { return position + lift_m(embree) * normal; }
 
 void are_blocked(const EmbreeScene& embree, const PackedOpenRays& rays, std::span<std::uint32_t> blocked) {
     std::ranges::fill(blocked, 0u);

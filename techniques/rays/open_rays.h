@@ -16,7 +16,10 @@ struct PackedOpenRays {
     std::size_t count = 0;
 };
 
-/// Where a ray from a surface point with this unit normal starts: 1e-5 of the scene's extent above it.
+/// How far above its surface a ray starts: 1e-5 of the scene's extent.
+float lift_m(const EmbreeScene& embree);
+
+/// Where a ray from a surface point with this unit normal starts: lift_m above it.
 vec3 lifted_off(const EmbreeScene& embree, vec3 position, vec3 normal);
 
 /// Whether anything is in the way of each ray, by packets of 16. The answer to ray i is bit i % 32 of word i / 32;

@@ -50,6 +50,37 @@ Scene scene_of_parts(const Scene& scene, const Wanted& wanted) {
 
 bool anything_moves(const Scene& scene) { return std::ranges::any_of(scene.parts, changes); }
 
+std::vector<std::uint8_t> triangles_of(const Scene& scene, PartChoice parts) {
+    std::vector<std::uint8_t> wanted(scene.triangles.size(), parts != PartChoice::changing);
+    if (parts == PartChoice::all) return wanted;
+    for (const Part& part : scene.parts)
+        std::fill_n(wanted.begin() + part.first_triangle, part.triangle_count,
+                    changes(part) == (parts == PartChoice::changing));
+    return wanted;
+}
+
+Box3 bounds_of_motion(const Scene& scene) {
+    Box3 bounds = scene.bounds;
+    if (scene.motion_bounds.empty()) return bounds;
+    bounds.add(scene.motion_bounds.lowest);
+    bounds.add(scene.motion_bounds.highest);
+    return bounds;
+}
+
+std::vector<Box3> changing_boxes(const Scene& scene, std::size_t most) {
+    const auto changing = static_cast<std::size_t>(std::ranges::count_if(scene.parts, changes));
+    std::vector<Box3> boxes(std::min(changing, most));
+    std::size_t next = 0;
+    for (const Part& part : scene.parts) {
+        if (!changes(part)) continue;
+        Box3& box = boxes[next++ * boxes.size() / changing];
+        for (std::uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+            for (int corner = 0; corner < 3; ++corner) box.add(scene.positions[scene.triangles[t][corner]]);
+    }
+    std::erase_if(boxes, [](const Box3& box) { return box.empty(); });
+    return boxes;
+}
+
 Scene fixed_scene(const Scene& scene) {
     return scene_of_parts(scene, [](const Part& part) { return !changes(part); });
 }

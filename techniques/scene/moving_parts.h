@@ -10,6 +10,19 @@ namespace sightlines {
 /// Whether any part of the scene moves or deforms.
 bool anything_moves(const Scene& scene);
 
+/// Which parts of a scene are meant: all, those that never change, or those that move or deform.
+enum class PartChoice { all, fixed, changing };
+
+/// Whether each triangle belongs to these parts, [T].
+std::vector<std::uint8_t> triangles_of(const Scene& scene, PartChoice parts);
+
+/// The box round all moments of the scene: `motion_bounds` and what lies outside them now.
+Box3 bounds_of_motion(const Scene& scene);
+
+/// Boxes round what moves or deforms, at this moment: one for each part, or for several where there are more than
+/// `most`.
+std::vector<Box3> changing_boxes(const Scene& scene, std::size_t most);
+
 /// A scene of the triangles of some parts only: positions, triangles and materials without textures, no normals and no
 /// texture coordinates. Bounds are those of what is left; `motion_bounds` stays that of the whole.
 Scene fixed_scene(const Scene& scene);     ///< of the parts that never change

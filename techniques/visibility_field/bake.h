@@ -32,10 +32,14 @@ struct BakeOptions {
 /// texel: as many as fit into 64 (3 for 18 x 18).
 int casting_steps(int mask_size);
 
+/// InputError for options out of range, EnvironmentError where memory does not suffice.
+void check_bake(const Scene& scene, const BakeOptions& options);
+
 /// The field of a scene; `embree` was built from it. A pure function of scene and options, whatever the threads.
 /// Materials that are not double-sided are sampled on their front only. A scene without surface, or no samples, gives a
-/// field whose cells hold nothing, so that every ray is traced. InputError for options out of range, EnvironmentError
-/// where memory does not suffice; Cancelled. `kept`: where not null, gets the samples that were cast from.
+/// field whose cells hold nothing, so that every ray is traced. Scenes that move are baked as moving_bake.h says.
+/// Throws as check_bake does; Cancelled. `kept`: where not null, gets the samples that were cast from; of a
+/// scene that moves, those of what moves.
 VisibilityField bake(const Scene& scene, const EmbreeScene& embree, const BakeOptions& options, Progress& progress,
                      CellPoints* kept = nullptr);
 
@@ -47,13 +51,7 @@ struct CellSteps {
     std::vector<std::vector<std::uint32_t>> occluded;  ///< [points][words_per_mask]
 };
 
-/// The point samples of the cell at `place`, cast from once more. `all`: the samples of a field of this shape, as bake
-/// kept them. Nothing where the cell holds none.
-CellSteps bake_steps(const CellPoints& all, const FieldShape& shape, const EmbreeScene& embree,
-                     const BakeOptions& options, ivec3 place);
-
-/// The same for samples that are placed once more.
-CellSteps bake_steps(const Scene& scene, const EmbreeScene& embree, const BakeOptions& options, ivec3 place,
-                     Progress& progress);
+/// The samples of one cell (samples_in), cast from once more.
+CellSteps bake_steps(CellPoints samples, const EmbreeScene& embree, const BakeOptions& options);
 
 }  // namespace sightlines::visibility_field

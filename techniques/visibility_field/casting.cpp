@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "shaders/wide.h"  // first: makes the kernels below wide
@@ -42,6 +44,38 @@ void aim(const RaySet& set, const wide::HemisphereFrame& frame, float shift, int
     }
 }
 
+/// Which of a vector's rays from `start` pass through the box: the slabs of its three axes.
+wide::Mask pass_through(const Box3& box, vec3 start, const Real inverse[3]) {
+    Real nearest = splat(0.0f), farthest = splat(std::numeric_limits<float>::max());
+    for (int axis = 0; axis < 3; ++axis) {
+        const Real a = splat(box.lowest[axis] - start[axis]) * inverse[axis];
+        const Real b = splat(box.highest[axis] - start[axis]) * inverse[axis];
+        nearest = wide::max(nearest, wide::min(a, b));
+        farthest = wide::min(farthest, wide::max(a, b));
+    }
+    return !(nearest > farthest);
+}
+
+/// The aimed rays that are not blocked and pass through one of the boxes.
+void choose_rays(std::span<const Box3> boxes, const RaySet& set, vec3 start, CastingRoom& room) {
+    room.chosen.clear();
+    const auto count = static_cast<std::uint32_t>(set.rays);
+    for (std::uint32_t first = 0; first < count; first += lanes) {
+        Real inverse[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            // Never zero, so that a box whose face the ray starts in is not lost in 0 times infinity.
+            const Real along = wide::load(&room.direction[axis][first]), tiny = splat(1.0e-20f);
+            inverse[axis] = splat(1.0f) / wide::select(wide::abs(along) < tiny, tiny, along);
+        }
+        std::uint32_t passing = 0;
+        for (const Box3& box : boxes) passing |= wide::bits_of(pass_through(box, start, inverse));
+        for (std::uint32_t left = passing; left != 0; left &= left - 1) {
+            const std::uint32_t k = first + static_cast<std::uint32_t>(std::countr_zero(left));
+            if (k < count && (room.blocked[k / 32] >> (k % 32) & 1u) == 0) room.chosen.push_back(k);
+        }
+    }
+}
+
 }  // namespace
 
 RaySet make_ray_set(int rays) {
@@ -58,17 +92,30 @@ RaySet make_ray_set(int rays) {
 }
 
 CastingRoom::CastingRoom(const RaySet& set)
-    : column(set.height.size()), row(set.height.size()), blocked(set.height.size() / 32 + 1) {
+    : column(set.height.size()),
+      row(set.height.size()),
+      blocked(set.height.size() / 32 + 1),
+      answered(set.height.size() / 32 + 1) {
     for (auto& axis : origin) axis.resize(set.height.size());
     for (auto& axis : direction) axis.resize(set.height.size());
+    for (auto& axis : chosen_direction) axis.resize(set.height.size());
+    chosen.reserve(set.height.size());
 }
 
-void cast_from(const EmbreeScene& embree, const RaySet& set, const SurfacePoint& point, int mask_size,
-               std::uint64_t seed, std::uint32_t stream, CastingRoom& room, MaskRows& visible, MaskRows& occluded) {
+std::uint32_t ray_stream(const SurfacePoint& point) {
+    std::uint32_t stream = hash_u32(std::bit_cast<std::uint32_t>(point.position.x));
+    stream = hash_u32(stream ^ std::bit_cast<std::uint32_t>(point.position.y));
+    return hash_u32(stream ^ std::bit_cast<std::uint32_t>(point.position.z));
+}
+
+void aim_from(const RaySet& set, const SurfacePoint& point, int mask_size, std::uint64_t seed, CastingRoom& room) {
+    const std::uint32_t stream = ray_stream(point);
     const float turn = two_pi * random_unit(seed, stream, 0);
     const wide::HemisphereFrame frame = wide::frame_about(point.normal, std::cos(turn), std::sin(turn));
     aim(set, frame, random_unit(seed, stream, 1), mask_size, room);
-    const vec3 start = lifted_off(embree, point.position, point.normal);
+}
+
+void cast_aimed(const EmbreeScene& embree, const RaySet& set, vec3 start, CastingRoom& room) {
     PackedOpenRays rays;
     rays.count = static_cast<std::size_t>(set.rays);
     for (int axis = 0; axis < 3; ++axis) {
@@ -77,10 +124,43 @@ void cast_from(const EmbreeScene& embree, const RaySet& set, const SurfacePoint&
         rays.direction[axis] = room.direction[axis].data();
     }
     are_blocked(embree, rays, room.blocked);
-    for (std::size_t k = 0; k < rays.count; ++k) {
+}
+
+CastCounts cast_into(std::span<const Box3> boxes, const EmbreeScene& embree, const RaySet& set, vec3 start,
+                     CastingRoom& room) {
+    choose_rays(boxes, set, start, room);
+    PackedOpenRays rays;
+    rays.count = room.chosen.size();
+    if (rays.count == 0) return {};
+    for (int axis = 0; axis < 3; ++axis) {
+        std::ranges::fill(room.origin[axis], start[axis]);
+        for (std::size_t k = 0; k < room.chosen.size(); ++k)
+            room.chosen_direction[axis][k] = room.direction[axis][room.chosen[k]];
+        rays.origin[axis] = room.origin[axis].data();
+        rays.direction[axis] = room.chosen_direction[axis].data();
+    }
+    are_blocked(embree, rays, room.answered);
+    CastCounts counts{rays.count, 0};
+    for (std::size_t k = 0; k < room.chosen.size(); ++k) {
+        const std::uint32_t blocked = room.answered[k / 32] >> (k % 32) & 1u;
+        room.blocked[room.chosen[k] / 32] |= blocked << (room.chosen[k] % 32);
+        counts.blocked += blocked;
+    }
+    return counts;
+}
+
+void mark_answers(const RaySet& set, const CastingRoom& room, MaskRows& visible, MaskRows& occluded) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(set.rays); ++k) {
         MaskRows& seen = (room.blocked[k / 32] >> (k % 32) & 1u) != 0 ? occluded : visible;
         seen[static_cast<std::size_t>(room.row[k])] |= std::uint64_t{1} << room.column[k];
     }
+}
+
+void cast_from(const EmbreeScene& embree, const RaySet& set, const SurfacePoint& point, int mask_size,
+               std::uint64_t seed, CastingRoom& room, MaskRows& visible, MaskRows& occluded) {
+    aim_from(set, point, mask_size, seed, room);
+    cast_aimed(embree, set, lifted_off(embree, point.position, point.normal), room);
+    mark_answers(set, room, visible, occluded);
 }
 
 }  // namespace sightlines::visibility_field

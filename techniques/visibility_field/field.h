@@ -22,7 +22,9 @@ struct VisibilityField {
     std::vector<std::uint32_t> masks;         ///< [masks][words_per_mask], each once; then spare_words zeros
     std::uint32_t cells = 0;                  ///< that hold masks
     std::uint64_t points = 0;                 ///< samples that were cast from
-    std::uint64_t rays = 0;                   ///< that were cast
+    std::uint64_t rays = 0;                   ///< that the masks stand for
+    std::uint32_t kept_cells = 0;             ///< of a scene that moves: those with the masks of what stands still
+    std::uint64_t rays_again = 0;             ///< ... that were cast for this moment
     double place_seconds = 0.0;               ///< for placing the samples
     double cast_seconds = 0.0;                ///< for casting and merging
 

@@ -6,6 +6,7 @@
 
 #include "techniques/base/error.h"
 #include "techniques/visibility_field/bake.h"
+#include "techniques/visibility_field/casting.h"
 #include "techniques/visibility_field/surface_cells.h"
 
 namespace sightlines::visibility_field {
@@ -21,8 +22,8 @@ struct Need {
     double mask_words = 0.0;
 };
 
-Need need_of(const Box3& bounds, double area_m2, std::size_t triangles, const BakeOptions& options) {
-    const vec3 size = bounds.size();
+Need need_of(const SurfaceExtent& surface, const BakeOptions& options) {
+    const vec3 size = surface.bounds.size();
     double cells = 1.0;
     Need need;
     need.bricks = 1.0;
@@ -33,15 +34,17 @@ Need need_of(const Box3& bounds, double area_m2, std::size_t triangles, const Ba
         need.bricks *= std::ceil(along / brick_side);
     }
     // A plane passes at most three times as many cells as it has squares of their side; a triangle touches some more.
-    const double parts =
-        3.0 * area_m2 / (static_cast<double>(options.cell_m) * options.cell_m) + 6.0 * static_cast<double>(triangles);
+    const double parts = 3.0 * surface.area_m2 / (static_cast<double>(options.cell_m) * options.cell_m) +
+                         6.0 * static_cast<double>(surface.triangles);
     const double occupied = std::min(cells, parts);
     const double words = 2.0 * std::ceil(options.mask_size * options.mask_size / 32.0);
     need.mask_words = occupied * words;
     const bool by_cell = options.placement == Placement::stratified;
     const double points = static_cast<double>(options.points) + (by_cell ? occupied : 0.0);
-    need.bytes = need.bricks * sizeof(FieldBrick) + occupied * (8.0 * words + 8.0) +
-                 points * static_cast<double>(sizeof(SurfacePoint)) * (by_cell ? 1.0 : 2.3) +
+    const double twice = surface.moves ? 2.0 : 1.0;  // what stands still, and the moment
+    const double answers = surface.moves ? points * 4.0 * static_cast<double>(words_of_rays(options.rays)) : 0.0;
+    need.bytes = answers + need.bricks * sizeof(FieldBrick) + twice * occupied * (8.0 * words + 8.0) +
+                 twice * points * static_cast<double>(sizeof(SurfacePoint)) * (by_cell ? 1.0 : 2.3) +
                  (by_cell ? 2.0 * parts * static_cast<double>(sizeof(CellPart)) : 0.0);
     return need;
 }
@@ -63,29 +66,31 @@ std::string memory_text(double bytes) {
     return text;
 }
 
-double bake_bytes(const Box3& bounds, double area_m2, std::size_t triangles, const BakeOptions& options) {
-    return need_of(bounds, area_m2, triangles, options).bytes;
-}
+double bake_bytes(const SurfaceExtent& surface, const BakeOptions& options) { return need_of(surface, options).bytes; }
 
-void require_memory(const Box3& bounds, double area_m2, std::size_t triangles, const BakeOptions& options,
-                    std::uint64_t available_bytes) {
+void require_memory(const SurfaceExtent& surface, const BakeOptions& options, std::uint64_t available_bytes) {
     const auto fits = [&](const BakeOptions& tried) {
-        const Need need = need_of(bounds, area_m2, triangles, tried);
+        const Need need = need_of(surface, tried);
         return need.bytes <= static_cast<double>(available_bytes) && need.bricks <= most_bricks &&
                need.longest <= most_along && need.mask_words <= most_mask_words;
     };
     if (fits(options)) return;
     BakeOptions larger = options;
     for (int doubling = 0; doubling < 60 && !fits(larger); ++doubling) larger.cell_m *= 2.0f;
-    const bool numbered = bake_bytes(bounds, area_m2, triangles, options) <= static_cast<double>(available_bytes);
+    const double bytes = bake_bytes(surface, options);
+    const bool numbered = bytes <= static_cast<double>(available_bytes);
     throw EnvironmentError(
         "memory",
         numbered ? "a visibility field with cells of " + metres_text(options.cell_m) +
                        " has more of them than can be numbered"
                  : "a visibility field with cells of " + metres_text(options.cell_m) + " takes up to " +
-                       memory_text(bake_bytes(bounds, area_m2, triangles, options)) + ", and " +
-                       memory_text(static_cast<double>(available_bytes)) + " are free",
+                       memory_text(bytes) + ", and " + memory_text(static_cast<double>(available_bytes)) + " are free",
         fits(larger) ? "cells of " + metres_text(larger.cell_m) + " would fit" : "choose fewer point samples");
+}
+
+void require_memory(const Scene& scene, const BakeOptions& options, std::uint64_t available_bytes) {
+    require_memory({bounds_of_motion(scene), sampled_area(scene), scene.triangles.size(), anything_moves(scene)},
+                   options, available_bytes);
 }
 
 }  // namespace sightlines::visibility_field

@@ -37,15 +37,20 @@ PartsByCell parts_by_cell(std::vector<CellPart> parts) {
     return sorted;
 }
 
-/// How many points each cell gets, as the first number of each.
-std::vector<std::uint32_t> shared_out(const PartsByCell& cells, std::uint32_t points) {
+/// So that as many points are shared out among these cells.
+PointDensity density_of(const PartsByCell& cells, std::uint32_t points) {
     const double whole = std::reduce(cells.area_m2.begin(), cells.area_m2.end());
     const auto count = static_cast<double>(cells.area_m2.size());
+    return {even_share * points / count, (1.0 - even_share) * points / whole};
+}
+
+/// How many points each cell gets, as the first number of each.
+std::vector<std::uint32_t> shared_out(const PartsByCell& cells, const PointDensity& density) {
     std::vector<std::uint32_t> first{0};
     double due = 0.0;
     std::uint32_t before = 0;
     for (const double area : cells.area_m2) {
-        due += points * (even_share / count + (1.0 - even_share) * area / whole);
+        due += density.per_cell + density.per_m2 * area;
         const auto until = static_cast<std::uint32_t>(due + 0.5);
         first.push_back(first.back() + std::max(1u, until - before));
         before = until;
@@ -74,13 +79,15 @@ void place_in_cell(const Scene& scene, const FieldShape& shape, std::span<const 
     }
 }
 
-CellPoints stratified(const Scene& scene, const FieldShape& shape, const BakeOptions& options, Progress& progress) {
-    const PartsByCell cells = parts_by_cell(surface_cells(scene, shape, options.threads, progress));
+CellPoints stratified(const Scene& scene, const FieldShape& shape, const BakeOptions& options, PartChoice parts,
+                      const std::optional<PointDensity>& density, Progress& progress) {
+    const PartsByCell cells = parts_by_cell(surface_cells(scene, shape, options.threads, progress, parts));
     CellPoints result;
     const std::size_t count = cells.area_m2.size();
-    if (count == 0) return {{}, {0}, {}};
+    if (count == 0) return {{}, {0}, {}, {}};
     for (std::size_t k = 0; k < count; ++k) result.cells.push_back(cells.parts[cells.first[k]].cell);
-    result.first = shared_out(cells, options.points);
+    result.density = density ? *density : density_of(cells, options.points);
+    result.first = shared_out(cells, result.density);
     result.points.resize(result.first.back());
     const std::int64_t tasks = (static_cast<std::int64_t>(count) + cells_per_task - 1) / cells_per_task;
     progress.begin("placing point samples", tasks);
@@ -102,11 +109,12 @@ struct SideAreas {
     std::vector<double> sums;
 };
 
-SideAreas side_areas(const Scene& scene) {
+SideAreas side_areas(const Scene& scene, PartChoice parts) {
+    const std::vector<std::uint8_t> wanted = triangles_of(scene, parts);
     SideAreas areas;
     double sum = 0.0;
     for (TriangleSide side = 0; side < 2 * scene.triangles.size(); ++side) {
-        if (!is_sampled(scene, side) || side_normal(scene, side) == vec3(0.0f)) continue;
+        if (wanted[side / 2] == 0 || !is_sampled(scene, side) || side_normal(scene, side) == vec3(0.0f)) continue;
         const uvec3 t = scene.triangles[side / 2];
         const dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]), c(scene.positions[t.z]);
         sum += 0.5 * glm::length(glm::cross(b - a, c - a));
@@ -136,12 +144,16 @@ std::uint32_t cell_of(const FieldShape& shape, const SurfacePoint& point) {
                                scalar_kernel::cell_along(at.z, shape.origin.z, shape.cell_m, shape.cells_z)});
 }
 
-CellPoints random_by_area(const Scene& scene, const FieldShape& shape, const BakeOptions& options, Progress& progress) {
-    const SideAreas areas = side_areas(scene);
-    if (areas.sides.empty() || options.points == 0) return {{}, {0}, {}};
-    std::vector<SurfacePoint> drawn(options.points);
-    std::vector<std::uint64_t> order(options.points);  // the cell above, the point's number below
-    const std::int64_t tasks = (static_cast<std::int64_t>(options.points) + points_per_task - 1) / points_per_task;
+CellPoints random_by_area(const Scene& scene, const FieldShape& shape, const BakeOptions& options, PartChoice parts,
+                          const std::optional<PointDensity>& density, Progress& progress) {
+    const SideAreas areas = side_areas(scene, parts);
+    if (areas.sides.empty()) return {{}, {0}, {}, {}};
+    CellPoints result;
+    result.density = density ? *density : PointDensity{0.0, options.points / areas.sums.back()};
+    const auto count = static_cast<std::size_t>(std::llround(result.density.per_m2 * areas.sums.back()));
+    std::vector<SurfacePoint> drawn(count);
+    std::vector<std::uint64_t> order(count);  // the cell above, the point's number below
+    const std::int64_t tasks = (static_cast<std::int64_t>(count) + points_per_task - 1) / points_per_task;
     progress.begin("placing point samples", tasks);
     parallel_for(tasks, options.threads, [&](std::int64_t task) {
         const auto begin = static_cast<std::size_t>(task * points_per_task);
@@ -152,7 +164,6 @@ CellPoints random_by_area(const Scene& scene, const FieldShape& shape, const Bak
         progress.advance();
     });
     std::ranges::sort(order);
-    CellPoints result;
     result.points.reserve(drawn.size());
     for (const std::uint64_t each : order) {
         const auto cell = static_cast<std::uint32_t>(each >> 32u);
@@ -168,10 +179,11 @@ CellPoints random_by_area(const Scene& scene, const FieldShape& shape, const Bak
 
 }  // namespace
 
-CellPoints place_points(const Scene& scene, const FieldShape& shape, const BakeOptions& options, Progress& progress) {
-    if (options.points == 0) return {{}, {0}, {}};
-    return options.placement == Placement::random ? random_by_area(scene, shape, options, progress)
-                                                  : stratified(scene, shape, options, progress);
+CellPoints place_points(const Scene& scene, const FieldShape& shape, const BakeOptions& options, Progress& progress,
+                        PartChoice parts, std::optional<PointDensity> density) {
+    if (options.points == 0) return {{}, {0}, {}, {}};
+    return options.placement == Placement::random ? random_by_area(scene, shape, options, parts, density, progress)
+                                                  : stratified(scene, shape, options, parts, density, progress);
 }
 
 ivec3 cell_place(const FieldShape& shape, std::uint32_t cell) {

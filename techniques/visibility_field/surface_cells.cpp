@@ -88,14 +88,18 @@ bool is_sampled(const Scene& scene, TriangleSide side) {
     return side % 2 == 0 || scene.materials[scene.triangle_materials[side / 2]].double_sided;
 }
 
-double sampled_area(const Scene& scene) {
+double sampled_area(const Scene& scene, PartChoice parts) {
+    const std::vector<std::uint8_t> wanted = triangles_of(scene, parts);
     double area = 0.0;
     for (TriangleSide side = 0; side < 2 * scene.triangles.size(); ++side)
-        if (is_sampled(scene, side)) area += polygon_area(triangle_of(scene, side, vec3(0.0f)));
+        if (wanted[side / 2] != 0 && is_sampled(scene, side))
+            area += polygon_area(triangle_of(scene, side, vec3(0.0f)));
     return area;
 }
 
-std::vector<CellPart> surface_cells(const Scene& scene, const FieldShape& shape, int threads, Progress& progress) {
+std::vector<CellPart> surface_cells(const Scene& scene, const FieldShape& shape, int threads, Progress& progress,
+                                    PartChoice choice) {
+    const std::vector<std::uint8_t> wanted = triangles_of(scene, choice);
     const std::size_t tasks = (scene.triangles.size() + triangles_per_task - 1) / triangles_per_task;
     std::vector<std::vector<CellPart>> found(tasks);
     progress.begin("finding the cells of the surface", static_cast<std::int64_t>(tasks));
@@ -104,6 +108,7 @@ std::vector<CellPart> surface_cells(const Scene& scene, const FieldShape& shape,
         const std::size_t first = static_cast<std::size_t>(task) * triangles_per_task;
         const std::size_t last = std::min(first + triangles_per_task, scene.triangles.size());
         for (auto side = static_cast<TriangleSide>(2 * first); side < 2 * last; ++side) {
+            if (wanted[side / 2] == 0) continue;
             const vec3 normal = side_normal(scene, side);
             if (normal == vec3(0.0f) || !is_sampled(scene, side)) continue;
             for_each_cell(triangle_of(scene, side, shape.nudge_m * normal), shape, 0, ivec3(0),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "techniques/base/progress.h"
+#include "techniques/scene/moving_parts.h"
 #include "techniques/scene/scene.h"
 #include "techniques/visibility_field/field.h"
 
@@ -34,10 +35,11 @@ vec3 side_normal(const Scene& scene, TriangleSide side);
 bool is_sampled(const Scene& scene, TriangleSide side);
 
 /// Area of all sides that are sampled, m2.
-double sampled_area(const Scene& scene);
+double sampled_area(const Scene& scene, PartChoice parts = PartChoice::all);
 
 /// All parts with an area, by cell, then by side. As a lookup does, a side is looked for a nudge above its surface.
-std::vector<CellPart> surface_cells(const Scene& scene, const FieldShape& shape, int threads, Progress& progress);
+std::vector<CellPart> surface_cells(const Scene& scene, const FieldShape& shape, int threads, Progress& progress,
+                                    PartChoice parts = PartChoice::all);
 
 /// The polygon of a part, on the surface itself.
 Polygon polygon_of(const Scene& scene, const FieldShape& shape, const CellPart& part);

@@ -109,23 +109,12 @@ SampleTrace trace_sample(const VisibilityField& field, const EmbreeScene& embree
     return trace_sample(field, embree, request.culling, sample_ray(request, pixel, sample));
 }
 
-NearestSamples nearest_samples(const Scene& scene, const EmbreeScene& embree, const BakeOptions& options,
-                               const SampleTrace& traced, Progress& progress) {
-    const FieldShape shape = make_shape(scene.bounds, options.cell_m, options.mask_size);
-    return nearest_samples(place_points(scene, shape, options, progress), shape, embree, traced);
-}
-
-NearestSamples nearest_samples(const CellPoints& all, const FieldShape& shape, const EmbreeScene& embree,
-                               const SampleTrace& traced) {
+NearestSamples nearest_samples(const CellPoints& samples, const EmbreeScene& embree, const SampleTrace& traced) {
     NearestSamples result;
-    const std::uint32_t number = cell_number(shape, traced.cell);
-    const auto found = std::ranges::lower_bound(all.cells, number);
-    if (found == all.cells.end() || *found != number) return result;
-    const auto cell = static_cast<std::size_t>(found - all.cells.begin());
+    if (samples.points.empty()) return result;
     const vec3 direction = glm::normalize(traced.trace.ray.target - traced.trace.ray.origin);
     result.nearest_m = result.should_have_seen_m = std::numeric_limits<float>::infinity();
-    for (std::uint32_t k = all.first[cell]; k < all.first[cell + 1]; ++k) {
-        const SurfacePoint& point = all.points[k];
+    for (const SurfacePoint& point : samples.points) {
         const float distance_m = glm::distance(point.position, traced.trace.ray.origin);
         ++result.points;
         if (distance_m < result.nearest_m) {

@@ -60,12 +60,7 @@ struct NearestSamples {
     float should_have_seen_m = 0.0f;
 };
 
-/// `points`: all of the field that it was traced in.
-NearestSamples nearest_samples(const CellPoints& points, const FieldShape& shape, const EmbreeScene& embree,
-                               const SampleTrace& traced);
-
-/// Places the point samples once more, with the options that the field was baked by.
-NearestSamples nearest_samples(const Scene& scene, const EmbreeScene& embree, const BakeOptions& options,
-                               const SampleTrace& traced, Progress& progress);
+/// `samples`: of the cell that it was looked up in (samples_in).
+NearestSamples nearest_samples(const CellPoints& samples, const EmbreeScene& embree, const SampleTrace& traced);
 
 }  // namespace sightlines::visibility_field

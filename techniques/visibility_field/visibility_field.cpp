@@ -7,12 +7,9 @@
 #include <numeric>
 
 #include "techniques/base/error.h"
-#include "techniques/base/huge_buffer.h"
 #include "techniques/base/parallel.h"
 #include "techniques/visibility_field/denoise.h"
 #include "techniques/visibility_field/map_sampling.h"
-#include "techniques/visibility_field/memory_need.h"
-#include "techniques/visibility_field/surface_cells.h"
 #include "techniques/visibility_field/weighted_samples.h"
 
 namespace sightlines::visibility_field {
@@ -114,15 +111,31 @@ BakeOptions bake_options(const BuildRequest& request) {
     return options;
 }
 
+/// Of a scene that moves, what all its moments share: `kept` where that serves. Null where nothing moves.
+std::shared_ptr<const FixedField> fixed_field(const Scene& scene, const BakeOptions& options, const std::any& kept,
+                                              Progress& progress) {
+    if (!anything_moves(scene)) return nullptr;
+    const auto* held = std::any_cast<std::shared_ptr<const FixedField>>(&kept);
+    return held != nullptr && serves(**held, scene, options) ? *held : bake_fixed(scene, options, progress);
+}
+
+std::any kept(const Structure& structure) {
+    const BuiltField& built = built_field(structure);
+    return built.fixed ? std::any(built.fixed) : std::any();
+}
+
 Structure build(const BuildRequest& request, Progress& progress) {
     check_parameters(parameters, request.parameters);
     const auto start = std::chrono::steady_clock::now();
     const Scene& scene = *request.scene;
     auto built = std::make_shared<BuiltField>();
     built->options = bake_options(request);
-    require_memory(scene.bounds, sampled_area(scene), scene.triangles.size(), built->options, available_memory_bytes());
+    check_bake(scene, built->options);
     built->embree = build_embree_scene(scene, EmbreeUse::benchmark, request.threads, progress);
-    built->field = bake(scene, *built->embree, built->options, progress, &built->points);
+    built->fixed = fixed_field(scene, built->options, request.kept, progress);
+    built->field = built->fixed
+                       ? bake_moment(*built->fixed, scene, *built->embree, built->options, progress, &built->points)
+                       : bake(scene, *built->embree, built->options, progress, &built->points);
     if (value_of(request.parameters, "layout") != 0.0) built->dense = to_dense(built->field);
     if (request.backend == Backend::vulkan)
         built->on_device = give_to_vulkan(&built->field, *built->embree, request.threads, progress);
@@ -299,7 +312,7 @@ std::string metres_text(float metres) {
 
 /// For a ray that was discarded wrongly: which sample should have kept it.
 void add_nearest(const BuiltField& built, const SampleTrace& traced, TraceStep& step) {
-    const NearestSamples nearest = nearest_samples(built.points, built.field.shape, *built.embree, traced);
+    const NearestSamples nearest = nearest_samples(samples_of(built, traced.cell), *built.embree, traced);
     const double infinite = std::numeric_limits<double>::infinity();
     step.values.push_back({"samples in the cell", static_cast<std::int64_t>(nearest.points), ""});
     step.values.push_back({"nearest sample", nearest.points > 0 ? double{nearest.nearest_m} : infinite, "m"});
@@ -336,19 +349,23 @@ Statistics statistics(const Structure& structure) {
     statistics.uncompressed_bytes = dense_bytes(shape);
     statistics.structure_bytes = built.dense ? statistics.uncompressed_bytes : field.bytes();
     statistics.build_seconds = built.build_seconds;
-    statistics.values = {{"cells of the grid", static_cast<double>(shape.cells_x) * shape.cells_y * shape.cells_z, ""},
-                         {"cells with masks", static_cast<double>(cells.size()), ""},
-                         {"cells called occluded", 100.0 * static_cast<double>(occluded) / count, "%"},
-                         {"cells called visible",
-                          100.0 * (static_cast<double>(cells.size()) - static_cast<double>(occluded)) / count, "%"},
-                         {"point samples", static_cast<double>(field.points), ""},
-                         {"rays cast", static_cast<double>(field.rays), ""},
-                         {"placing the samples", field.place_seconds, "s"},
-                         {"casting the rays", field.cast_seconds, "s"},
-                         {"masks that are copies of others",
-                          2.0 * static_cast<double>(cells.size()) - static_cast<double>(distinct), ""},
-                         {"bytes packed", static_cast<double>(field.bytes()), "B"},
-                         {"bytes in the paper's layout", static_cast<double>(dense_bytes(shape)), "B"}};
+    statistics.values = {
+        {"cells of the grid", static_cast<double>(shape.cells_x) * shape.cells_y * shape.cells_z, ""},
+        {"cells with masks", static_cast<double>(cells.size()), ""},
+        {"cells called occluded", 100.0 * static_cast<double>(occluded) / count, "%"},
+        {"cells called visible", 100.0 * (static_cast<double>(cells.size()) - static_cast<double>(occluded)) / count,
+         "%"},
+        {"point samples", static_cast<double>(field.points), ""},
+        {"rays cast", static_cast<double>(field.rays), ""},
+        {"placing the samples", field.place_seconds, "s"},
+        {"casting the rays", field.cast_seconds, "s"},
+        {"cells kept from what stands still", static_cast<double>(field.kept_cells), ""},
+        {"rays cast for this moment", static_cast<double>(built.fixed ? field.rays_again : field.rays), ""},
+        {"what stands still", built.fixed ? built.fixed->seconds : 0.0, "s"},
+        {"masks that are copies of others", 2.0 * static_cast<double>(cells.size()) - static_cast<double>(distinct),
+         ""},
+        {"bytes packed", static_cast<double>(field.bytes()), "B"},
+        {"bytes in the paper's layout", static_cast<double>(dense_bytes(shape)), "B"}};
     return statistics;
 }
 
@@ -373,7 +390,7 @@ constexpr Technique row{
     trace,
     statistics,
     true,
-    nullptr,
+    kept,
     &environment};
 
 }  // namespace
@@ -382,6 +399,10 @@ const Technique& technique() { return row; }
 
 const BuiltField& built_field(const Structure& structure) {
     return *std::any_cast<const BuiltFieldPointer&>(structure);
+}
+
+CellPoints samples_of(const BuiltField& built, ivec3 place) {
+    return samples_in(built.field.shape, place, built.points, built.fixed ? &built.fixed->points : nullptr);
 }
 
 Culling culling_of(const ParameterValues& chosen) {

@@ -4,6 +4,7 @@
 
 #include "techniques/technique.h"
 #include "techniques/visibility_field/bake.h"
+#include "techniques/visibility_field/moving_bake.h"
 #include "techniques/visibility_field/trace.h"
 #include "techniques/visibility_field/vulkan_backend.h"
 
@@ -14,7 +15,8 @@ const Technique& technique();
 /// What `technique().build` makes.
 struct BuiltField {
     VisibilityField field;
-    CellPoints points;  ///< that it was baked from
+    CellPoints points;                        ///< that it was baked from; where the scene moves, those of what moves
+    std::shared_ptr<const FixedField> fixed;  ///< where the scene moves: what its other moments can use
     BakeOptions options;
     std::shared_ptr<const EmbreeScene> embree;       ///< that answers what the field leaves open
     std::optional<DenseField> dense;                 ///< where the paper's layout is asked for
@@ -24,6 +26,9 @@ struct BuiltField {
 
 /// The field inside a structure that `technique().build` made.
 const BuiltField& built_field(const Structure& structure);
+
+/// The point samples of a cell.
+CellPoints samples_of(const BuiltField& built, ivec3 place);
 
 /// Which rays of a picture with these parameters are traced.
 Culling culling_of(const ParameterValues& parameters);

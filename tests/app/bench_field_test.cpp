@@ -33,7 +33,7 @@ double ours(const Json& table, const std::string& scene, const std::string& quan
     return -1.0;
 }
 
-TEST(FieldTables, AreEightAndComeAfterThoseOfVoxelRows) {
+TEST(FieldTables, AreNineAndComeAfterThoseOfVoxelRows) {
     Words names;
     for (const PaperTable& table : tables_of("visibility-field")) {
         names.emplace_back(table.name);
@@ -41,7 +41,7 @@ TEST(FieldTables, AreEightAndComeAfterThoseOfVoxelRows) {
     }
     EXPECT_EQ(names, (Words{"visibility-field/table1", "visibility-field/figure5", "visibility-field/figure6",
                             "visibility-field/figure7", "visibility-field/figure8", "visibility-field/figure9",
-                            "visibility-field/figure10", "visibility-field/memory"}));
+                            "visibility-field/figure10", "visibility-field/memory", "visibility-field/moving"}));
     EXPECT_EQ(tables_of("voxel-rows").size() + names.size(), paper_tables().size());
     EXPECT_TRUE(tables_of("visibility").empty());
 }
@@ -116,6 +116,20 @@ TEST(FieldTables, GiveMemoryThatShrinksWithLargerCellsAndWithPacking) {
             EXPECT_LT(dense, ours(table, "atrium", "memory, the paper's layout", 0.5 * cell_cm));
         }
     }
+}
+
+TEST(FieldTables, BakeMomentsFromWhatStandsStill) {
+    const ProgramRun run = quick("visibility-field/moving", fresh_folder(), {"--scene", "bear"});
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    const Json table = Json::parse(run.output);
+    for (const char* quantity : {"baking all anew", "baking the moment", "baking what stands still, once"})
+        EXPECT_GT(ours(table, "bear", quantity, 0.0), 0.0) << quantity;
+    const double cells = ours(table, "bear", "cells baked again", 0.0),
+                 rays = ours(table, "bear", "rays cast again", 0.0);
+    EXPECT_GT(cells, 0.0);
+    EXPECT_LT(cells, 100.0);
+    EXPECT_GT(rays, 0.0);
+    EXPECT_LT(rays, 30.0);
 }
 
 TEST(FieldTables, TakeTheirLightFromAPictureAndRefuseOneThatIsMissingBeforeMeasuring) {

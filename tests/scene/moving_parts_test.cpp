@@ -1,5 +1,7 @@
 #include "techniques/scene/moving_parts.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "techniques/scene/builtin_mesh.h"
@@ -39,6 +41,39 @@ TEST(MovingParts, EveryTriangleIsEitherFixedOrChanging) {
     EXPECT_EQ(changing.triangle_materials.at(0), 1u);
     EXPECT_TRUE(anything_moves(scene));
     EXPECT_FALSE(anything_moves(fixed));
+}
+
+TEST(MovingParts, TrianglesAreChosenByPart) {
+    const Scene scene = mixed_scene();
+    const auto all = triangles_of(scene, PartChoice::all), fixed = triangles_of(scene, PartChoice::fixed),
+               changing = triangles_of(scene, PartChoice::changing);
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+        EXPECT_EQ(all[t], 1);
+        EXPECT_EQ(fixed[t], t == 12 || t == 13);
+        EXPECT_EQ(changing[t], !fixed[t]);
+    }
+}
+
+TEST(MovingParts, BoxesHoldWhatChangesHoweverFewThereMayBe) {
+    const Scene scene = mixed_scene();
+    EXPECT_EQ(changing_boxes(scene, 10).size(), 3u);
+    const std::vector<std::uint8_t> changing = triangles_of(scene, PartChoice::changing);
+    for (const std::size_t most : {1u, 2u, 3u}) {
+        const std::vector<Box3> boxes = changing_boxes(scene, most);
+        EXPECT_EQ(boxes.size(), most);
+        for (std::size_t t = 0; t < scene.triangles.size(); ++t)
+            for (int k = 0; changing[t] != 0 && k < 3; ++k) {
+                const vec3 corner = scene.positions[scene.triangles[t][k]];
+                EXPECT_TRUE(std::ranges::any_of(boxes, [&](const Box3& box) {
+                    return glm::all(glm::lessThanEqual(box.lowest, corner)) &&
+                           glm::all(glm::lessThanEqual(corner, box.highest));
+                }));
+            }
+    }
+    EXPECT_EQ(changing_boxes(scene, 3)[0].lowest.y, 0.5f);
+    Scene still = mixed_scene();
+    for (Part& part : still.parts) part.moves = part.deforms = false;
+    EXPECT_TRUE(changing_boxes(still, 3).empty());
 }
 
 TEST(MovingParts, InstancesOfOneMeshAreOneObject) {

@@ -16,6 +16,7 @@
 #include "techniques/scene/builtin_scenes.h"
 #include "techniques/visibility_field/casting.h"
 #include "techniques/visibility_field/dense_field.h"
+#include "techniques/visibility_field/moving_bake.h"
 #include "tests/visibility_field/scenes.h"
 
 namespace sightlines::visibility_field {
@@ -65,8 +66,9 @@ struct NaivePair {
 };
 
 NaivePair cast_plainly(const EmbreeScene& embree, const SurfacePoint& point, const RaySet& set, int size,
-                       std::uint64_t seed, std::uint32_t stream) {
+                       std::uint64_t seed) {
     NaivePair masks{{size}, {size}};
+    const std::uint32_t stream = ray_stream(point);
     const float turn = 2.0f * std::numbers::pi_v<float> * random_unit(seed, stream, 0);
     const kernel::HemisphereFrame frame = kernel::frame_about(point.normal, std::cos(turn), std::sin(turn));
     for (int k = 0; k < set.rays; ++k) {
@@ -101,8 +103,8 @@ TEST_P(Bake, GivesTheMasksOfPlainLoopsBitForBit) {
         ASSERT_EQ(cell_number(field.shape, cells[cell].place), points.cells[cell]);
         NaivePair merged{{options.mask_size}, {options.mask_size}};
         for (std::uint32_t k = points.first[cell]; k < points.first[cell + 1]; ++k) {
-            const NaivePair one = cast_plainly(*prepared.embree, points.points[k], set, options.mask_size,
-                                               options.seed ^ casting_seed, k);
+            const NaivePair one =
+                cast_plainly(*prepared.embree, points.points[k], set, options.mask_size, options.seed ^ casting_seed);
             merged.visible.merge(one.visible);
             merged.occluded.merge(one.occluded);
         }
@@ -206,9 +208,13 @@ TEST(BakeSteps, OfACellMergeToItsMasks) {
     Prepared prepared;
     BakeOptions options = testing::small_bake();
     options.dilation = 0.0f;
-    const VisibilityField field = testing::baked(prepared.scene, *prepared.embree, options);
+    CellPoints points;
+    const VisibilityField field = bake(prepared.scene, *prepared.embree, options, prepared.progress, &points);
     const OccupiedCell cell = occupied_cells(field)[field.cells / 2];
-    const CellSteps steps = bake_steps(prepared.scene, *prepared.embree, options, cell.place, prepared.progress);
+    const auto steps_of = [&](ivec3 place) {
+        return bake_steps(samples_in(field.shape, place, points, nullptr), *prepared.embree, options);
+    };
+    const CellSteps steps = steps_of(cell.place);
     ASSERT_FALSE(steps.visible.empty());
     ASSERT_EQ(steps.visible.size(), steps.points.points.size());
     for (std::size_t word = 0; word < 11; ++word) {
@@ -218,7 +224,7 @@ TEST(BakeSteps, OfACellMergeToItsMasks) {
         EXPECT_EQ(visible, mask_words(field, cell.index, 0)[word]);
         EXPECT_EQ(occluded, mask_words(field, cell.index, 1)[word]);
     }
-    EXPECT_TRUE(bake_steps(prepared.scene, *prepared.embree, options, {4, 5, 4}, prepared.progress).visible.empty());
+    EXPECT_TRUE(steps_of({4, 5, 4}).visible.empty());
 }
 
 TEST(BakeLimits, RefuseOptionsOutOfRange) {

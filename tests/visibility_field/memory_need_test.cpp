@@ -14,7 +14,7 @@ const Box3 hall{vec3(0.0f), vec3(40.0f, 20.0f, 20.0f)};
 
 std::string refusal(const BakeOptions& options, std::uint64_t available_bytes) {
     try {
-        require_memory(hall, 5000.0, 200'000, options, available_bytes);
+        require_memory({hall, 5000.0, 200'000}, options, available_bytes);
     } catch (const EnvironmentError& error) {
         return error.what();
     }
@@ -29,7 +29,7 @@ TEST(MemoryNeed, IsNoLessThanWhatABakeHolds) {
         const VisibilityField field = testing::baked(scene, *test::built(scene), options);
         const double held =
             static_cast<double>(field.bytes()) + static_cast<double>(field.points * sizeof(SurfacePoint));
-        EXPECT_GE(bake_bytes(scene.bounds, sampled_area(scene), scene.triangles.size(), options), held) << cell_m;
+        EXPECT_GE(bake_bytes({scene.bounds, sampled_area(scene), scene.triangles.size()}, options), held) << cell_m;
     }
 }
 
@@ -48,9 +48,9 @@ TEST(MemoryNeed, TheRefusalNamesTheNeedAndTheCellsThatWouldFit) {
 TEST(MemoryNeed, RefusesMoreCellsThanCanBeNumberedWhateverTheMemory) {
     BakeOptions options;
     options.cell_m = 1e-4f;
-    EXPECT_THROW(require_memory({vec3(0.0f), vec3(1000.0f, 0.0f, 0.0f)}, 0.0, 1, options, ~std::uint64_t{0}),
+    EXPECT_THROW(require_memory({{vec3(0.0f), vec3(1000.0f, 0.0f, 0.0f)}, 0.0, 1}, options, ~std::uint64_t{0}),
                  EnvironmentError);
-    EXPECT_THROW(require_memory({vec3(0.0f), vec3(1e5f)}, 1e10, 1, {}, ~std::uint64_t{0}), EnvironmentError);
+    EXPECT_THROW(require_memory({{vec3(0.0f), vec3(1e5f)}, 1e10, 1}, {}, ~std::uint64_t{0}), EnvironmentError);
 }
 
 TEST(MemoryNeed, WhereSamplesAloneAreTooManyItSaysSo) {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "techniques/visibility_field/moving_bake.h"
 #include "tests/visibility_field/scenes.h"
 
 namespace sightlines::visibility_field {
@@ -19,12 +20,13 @@ struct Prepared {
     SamplePattern pattern = make_pattern(32, 1);
     BakeOptions options = testing::small_bake();
     VisibilityField field;
+    CellPoints points;
     EnvironmentRequest request;
     Progress progress;
 
-    explicit Prepared(std::uint32_t points = 1500) {
-        options.points = points;
-        field = testing::baked(scene, *embree, options);
+    explicit Prepared(std::uint32_t count = 1500) {
+        options.points = count;
+        field = bake(scene, *embree, options, progress, &points);
         request.surfaces = &surfaces;
         request.pattern = &pattern;
         request.light.coefficient[0] = vec3(2.0f, 3.0f, 4.0f);
@@ -114,8 +116,8 @@ TEST(FieldTrace, FindsTheSampleThatShouldHaveSeenAWrongRay) {
     for (const WrongRay& ray : wrong.first) {
         const SampleTrace traced = prepared.trace(static_cast<int>(ray.pixel) % 40, static_cast<int>(ray.pixel) / 40,
                                                   static_cast<int>(ray.sample));
-        const NearestSamples nearest =
-            nearest_samples(prepared.scene, *prepared.embree, prepared.options, traced, prepared.progress);
+        const NearestSamples nearest = nearest_samples(
+            samples_in(prepared.field.shape, traced.cell, prepared.points, nullptr), *prepared.embree, traced);
         ASSERT_GT(nearest.points, 0u);
         ASSERT_LE(nearest.facing, nearest.points);
         ASSERT_LE(nearest.nearest_m, 0.87f);

@@ -1,0 +1,83 @@
+#include "techniques/visibility_field/cell_masks.h"
+
+#include <cmath>
+
+#include "techniques/visibility_field/bake.h"
+
+namespace sightlines::visibility_field {
+namespace {
+
+/// From the parts of texels that rays fell into to texels, dilated. Dilating the merged mask is the same as merging
+/// dilated ones.
+MaskRows finished(MaskRows parts, const BakeOptions& options) {
+    const int steps = casting_steps(options.mask_size);
+    const auto dilations = static_cast<int>(std::lround(options.dilation * static_cast<float>(steps)));
+    for (int k = 0; k < dilations; ++k) parts = dilated(parts, options.mask_size * steps);
+    return reduced(parts, options.mask_size, steps);
+}
+
+/// Equation 8, or the smaller region.
+bool occlusion_label(const MaskRows& visible, const MaskRows& occluded, const BakeOptions& options) {
+    const int hidden = texels_set(occluded);
+    if (options.label == LabelRule::texels) return 2 * hidden > options.mask_size * options.mask_size;
+    return hidden > texels_set(visible);
+}
+
+}  // namespace
+
+int casting_steps(int mask_size) { return largest_mask / mask_size; }
+
+int casting_size(const BakeOptions& options) { return options.mask_size * casting_steps(options.mask_size); }
+
+CellMasks make_cell_masks(std::size_t cells, const FieldShape& shape) {
+    return {std::vector<std::uint32_t>(2 * cells * static_cast<std::size_t>(shape.words_per_mask)),
+            std::vector<std::uint8_t>(cells)};
+}
+
+void finish_cell(const MaskPair& parts, const BakeOptions& options, std::size_t cell, CellMasks& masks) {
+    const std::size_t words = words_per_mask(options.mask_size);
+    const MaskRows visible = finished(parts.visible, options), occluded = finished(parts.occluded, options);
+    masks.labels[cell] = occlusion_label(visible, occluded, options);
+    pack(visible, options.mask_size, std::span(masks.words).subspan(2 * cell * words, words));
+    pack(occluded, options.mask_size, std::span(masks.words).subspan((2 * cell + 1) * words, words));
+}
+
+void add_cell(const MaskPair& parts, const BakeOptions& options, CellMasks& masks) {
+    masks.labels.push_back(0);
+    masks.words.resize(2 * masks.labels.size() * words_per_mask(options.mask_size));
+    finish_cell(parts, options, masks.labels.size() - 1, masks);
+}
+
+std::string_view mask_bytes(std::span<const std::uint32_t> mask) {
+    return {reinterpret_cast<const char*>(mask.data()), mask.size_bytes()};
+}
+
+void set_cells(std::span<const std::uint32_t> cells, std::span<const std::uint8_t> labels, VisibilityField& field) {
+    field.bricks.assign(brick_count(field.shape), FieldBrick{});
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        FieldBrick& brick = field.bricks[cells[k] / 64];
+        const std::uint32_t bit = cells[k] % 64, place = 1u << (bit % 32);
+        if ((brick.occupied_low | brick.occupied_high) == 0) brick.first_cell = static_cast<std::uint32_t>(k);
+        (bit < 32 ? brick.occupied_low : brick.occupied_high) |= place;
+        if (labels[k] != 0) (bit < 32 ? brick.label_low : brick.label_high) |= place;
+    }
+    field.cells = static_cast<std::uint32_t>(cells.size());
+}
+
+void assemble(const CellPoints& points, const CellMasks& masks, VisibilityField& field) {
+    set_cells(points.cells, masks.labels, field);
+    field.points = points.points.size();
+    // Half of Sponza's masks are copies: cells without sky, for one.
+    const auto words = static_cast<std::size_t>(field.shape.words_per_mask);
+    MaskNumbers numbers;
+    for (std::size_t start = 0; start < masks.words.size(); start += words) {
+        const auto mask = std::span(masks.words).subspan(start, words);
+        const auto [known, is_new] = numbers.try_emplace(mask_bytes(mask), static_cast<std::uint32_t>(numbers.size()));
+        field.mask_numbers.push_back(known->second);
+        if (is_new) field.masks.insert(field.masks.end(), mask.begin(), mask.end());
+    }
+    field.masks.resize(field.masks.size() + spare_words);
+    field.masks.shrink_to_fit();
+}
+
+}  // namespace sightlines::visibility_field

@@ -1,0 +1,58 @@
+// From the texels that rays fell into to a field: dilation, labels, each mask stored once (Algorithm 1, lines 15 to
+// 36).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "techniques/visibility_field/field.h"
+#include "techniques/visibility_field/mask_rows.h"
+#include "techniques/visibility_field/points.h"
+
+namespace sightlines::visibility_field {
+
+struct BakeOptions;
+
+/// Texels along a side of the masks that rays fall into: casting_steps for each of the finished mask's.
+int casting_size(const BakeOptions& options);
+
+/// Words of a packed mask.
+constexpr std::size_t words_per_mask(int mask_size) {
+    return (static_cast<std::size_t>(mask_size * mask_size) + 31) / 32;
+}
+
+/// The texels of a cell that rays fell into, casting_size along a side. Merging as the rays fall (equations 5 and 6) is
+/// the OR of the points' own masks.
+struct MaskPair {
+    MaskRows visible{}, occluded{};
+};
+
+/// The finished masks of many cells.
+struct CellMasks {
+    std::vector<std::uint32_t> words;  ///< [cells][visible, occluded][words_per_mask]
+    std::vector<std::uint8_t> labels;  ///< [cells]
+};
+
+CellMasks make_cell_masks(std::size_t cells, const FieldShape& shape);
+
+/// Dilates and reduces a cell's texels, finds its label and keeps all that as the masks of cell `cell`.
+void finish_cell(const MaskPair& parts, const BakeOptions& options, std::size_t cell, CellMasks& masks);
+
+/// The same as those of one more cell.
+void add_cell(const MaskPair& parts, const BakeOptions& options, CellMasks& masks);
+
+/// The number of each mask by its bytes, which lie elsewhere.
+using MaskNumbers = std::unordered_map<std::string_view, std::uint32_t>;
+
+std::string_view mask_bytes(std::span<const std::uint32_t> mask);
+
+/// Puts cells that hold masks (as CellPoints numbers them) and their labels into the field's bricks.
+void set_cells(std::span<const std::uint32_t> cells, std::span<const std::uint8_t> labels, VisibilityField& field);
+
+/// The same, and stores each mask once, in the order in which they come. The field's shape is known.
+void assemble(const CellPoints& points, const CellMasks& masks, VisibilityField& field);
+
+}  // namespace sightlines::visibility_field
