@@ -24,19 +24,12 @@ constexpr std::size_t block_words = 2 * static_cast<std::size_t>(length) * lanes
 constexpr std::size_t rows_between_checks = 1u << 14u;
 constexpr std::size_t probes_between_checks = 4;
 
-/// What rows are put in order by: down-sampled from coarse to fine, and then the bits themselves.
+/// Which of two rows comes first where their prefix and fine key are the same: down-sampled by 2, and then the bits
+/// themselves.
 template <int length>
-struct SortKey {
-    std::uint64_t prefix, fine;
-    RowBits<length> by_2, row;
-
-    auto operator<=>(const SortKey&) const = default;
-};
-
-template <int length>
-SortKey<length> sort_key(const RowBits<length>& row, int shift) {
-    const RowBits<length> moved = shifted(row, shift);
-    return {coarse_prefix(moved), fine_key(moved), simplify(moved, 1), row};
+bool comes_before(const RowBits<length>& a, const RowBits<length>& b, int shift) {
+    const auto by_2 = simplify(shifted(a, shift), 1) <=> simplify(shifted(b, shift), 1);
+    return by_2 != 0 ? by_2 < 0 : a < b;
 }
 
 /// Fills rows, prefix, fine and index.
@@ -57,7 +50,7 @@ void put_in_order(const std::vector<RowBits<length>>& rows, SortedRows<length>& 
         progress.check();
         if (a.prefix != b.prefix) return a.prefix < b.prefix;
         if (a.fine != b.fine) return a.fine < b.fine;
-        return sort_key(rows[a.index], sorted.shift) < sort_key(rows[b.index], sorted.shift);
+        return comes_before(rows[a.index], rows[b.index], sorted.shift);
     });
     for (const Numbered& each : order) {
         sorted.rows.push_back(rows[each.index]);
@@ -177,21 +170,24 @@ SortedRows<length> sort_rows(const std::vector<RowBits<length>>& rows, int shift
 
 template <int length>
 std::uint32_t place_among(const SortedRows<length>& sorted, Range within, const RowBits<length>& row) {
-    const SortKey<length> key = sort_key(row, sorted.shift);
+    const RowBits<length> moved = shifted(row, sorted.shift);
+    const std::uint64_t prefix = coarse_prefix(moved);
     // Halves without branches, which nobody could foretell.
     std::uint32_t first = within.first;
     for (std::uint32_t count = within.count; count > 0;) {
         const std::uint32_t half = (count + 1) / 2;
-        first += sorted.prefix[first + half - 1] < key.prefix ? half : 0;
+        first += sorted.prefix[first + half - 1] < prefix ? half : 0;
         count -= half;
     }
     const std::uint32_t end = within.first + within.count;
+    if (first == end || sorted.prefix[first] != prefix) return first;
+    const std::uint64_t fine = fine_key(moved);
     const auto before = [&](std::uint32_t place) {
-        if (sorted.prefix[place] != key.prefix) return sorted.prefix[place] < key.prefix;
-        if (sorted.fine[place] != key.fine) return sorted.fine[place] < key.fine;
-        return sort_key(sorted.rows[place], sorted.shift) < key;
+        if (sorted.prefix[place] != prefix) return false;
+        if (sorted.fine[place] != fine) return sorted.fine[place] < fine;
+        return comes_before(sorted.rows[place], row, sorted.shift);
     };
-    if (first == end || !before(first)) return first;
+    if (!before(first)) return first;
     const auto places = std::views::iota(first, end);  // several rows have this prefix
     return first + static_cast<std::uint32_t>(std::ranges::partition_point(places, before) - places.begin());
 }

@@ -25,6 +25,18 @@ RowBits<length> load_row(const std::uint32_t* from) {
     return row;
 }
 
+/// A row as 64-bit words, bit u in bit u % 64 of word u / 64.
+template <int length>
+using RowPlanes = std::array<std::uint64_t, (static_cast<std::size_t>(length) + 1) / 2>;
+
+template <int length>
+RowPlanes<length> planes_of(const RowBits<length>& row) {
+    static_assert(std::endian::native == std::endian::little);
+    RowPlanes<length> planes{};
+    std::memcpy(planes.data(), row.words.data(), sizeof row);
+    return planes;
+}
+
 template <int length>
 bool is_blank(const RowBits<length>& row) {
     std::uint32_t any = 0;

@@ -1,6 +1,7 @@
 #include "techniques/voxel_rows/row_deals.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "techniques/base/parallel.h"
@@ -20,6 +21,17 @@ std::vector<std::uint64_t> find_cuts(std::vector<std::uint64_t> sample, std::siz
         cuts.push_back(sample[deal * sample.size() / deals]);
     cuts.erase(std::ranges::unique(cuts).begin(), cuts.end());
     return cuts;
+}
+
+/// How many cuts are at most `prefix`. By halves without branches, which nobody could foretell.
+std::size_t cuts_up_to(std::span<const std::uint64_t> cuts, std::uint64_t prefix) {
+    std::size_t first = 0;
+    for (std::size_t count = cuts.size(); count > 0;) {
+        const std::size_t half = (count + 1) / 2;
+        first += cuts[first + half - 1] <= prefix ? half : 0;
+        count -= half;
+    }
+    return first;
 }
 
 /// Where rows come from: visit(source, take) calls take(row) for each row of one of the sources.
@@ -54,9 +66,7 @@ RowDeals<length> deal_out(const Sources<Visit>& sources, int shift, int threads,
     dealt.cuts = find_cuts(std::move(prefixes), most);
 
     const std::size_t deals = dealt.cuts.size() + 1;
-    const auto deal_of = [&](const RowBits<length>& row) {
-        return static_cast<std::size_t>(std::ranges::upper_bound(dealt.cuts, prefix_of(row)) - dealt.cuts.begin());
-    };
+    const auto deal_of = [&](const RowBits<length>& row) { return cuts_up_to(dealt.cuts, prefix_of(row)); };
     std::vector<std::uint32_t> places(sources.count * deals);
     visit_all([&](std::size_t source, const DealtRow<length>& row) { ++places[source * deals + deal_of(row.row)]; });
     std::uint32_t place = 0;

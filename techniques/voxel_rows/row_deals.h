@@ -11,11 +11,12 @@ namespace sightlines::voxel_rows {
 template <int length>
 RowBits<length> shifted(const RowBits<length>& row, int shift) {
     if (shift == 0) return row;
+    // All of this is by 64 bits: what was just stored by 32 could not be loaded at once as more.
+    RowPlanes<length> planes = planes_of(row);
+    for (std::size_t k = planes.size(); k-- > 0;)
+        planes[k] = planes[k] << shift | (k > 0 ? planes[k - 1] >> (64 - shift) : 0);
     RowBits<length> moved;
-    for (std::size_t k = 0; k < length; ++k) {
-        const std::uint32_t below = k > 0 ? row.words[k - 1] : 0;
-        moved.words[k] = row.words[k] << shift | below >> (32 - shift);
-    }
+    std::memcpy(moved.words.data(), planes.data(), sizeof moved);
     return moved;
 }
 
@@ -25,12 +26,15 @@ template <int length>
 std::uint64_t coarse_prefix(const RowBits<length>& row) {
     static_assert(length * (1 + 2 + 4) <= 64);
     std::uint64_t by_32 = 0, by_16 = 0, by_8 = 0;
-    for (std::uint32_t word : row.words) {
-        word |= word >> 1u;
-        word |= word >> 2u;
-        word |= word >> 4u;
-        // Bits 0, 8, 16 and 24 move to 31, 30, 29 and 28; no two of the sixteen terms meet.
+    const RowPlanes<length> planes = planes_of(row);
+    for (std::size_t k = 0; k < length; ++k) {
+        std::uint64_t plane = planes[k / 2];
+        plane |= plane >> 1u;
+        plane |= plane >> 2u;
+        plane |= plane >> 4u;
+        // Bits 0, 8, 16 and 24 of the word move to 31, 30, 29 and 28; no two of the sixteen terms meet.
         constexpr std::uint32_t gather = 1u << 31u | 1u << 22u | 1u << 13u | 1u << 4u;
+        const auto word = static_cast<std::uint32_t>(plane >> (32 * (k % 2)));
         const std::uint32_t of_8 = (word & 0x01010101u) * gather >> 28u;
         const std::uint32_t of_16 = (of_8 >> 2u != 0 ? 2u : 0u) | ((of_8 & 3u) != 0 ? 1u : 0u);
         by_8 = by_8 << 4u | of_8;
@@ -40,15 +44,20 @@ std::uint64_t coarse_prefix(const RowBits<length>& row) {
     return (by_32 << 2u * length | by_16) << 4u * length | by_8;
 }
 
-/// The row down-sampled by 4, eight bits for each word.
+/// The row down-sampled by 4, eight bits for each word, those of the first word uppermost.
 template <int length>
 std::uint64_t fine_key(const RowBits<length>& row) {
     static_assert(8 * length <= 64);
     std::uint64_t key = 0;
-    for (std::uint32_t word : simplify(row, 2).words) {
-        word = (word | word >> 3u) & 0x03030303u;
-        word = (word | word >> 6u) & 0x000f000fu;
-        key = key << 8u | ((word | word >> 12u) & 0xffu);
+    for (std::uint64_t plane : planes_of(row)) {
+        plane |= plane >> 1u;
+        plane |= plane >> 2u;
+        plane &= 0x1111111111111111u;
+        plane = (plane | plane >> 3u) & 0x0303030303030303u;
+        plane = (plane | plane >> 6u) & 0x000f000f000f000fu;
+        plane = plane | plane >> 12u;
+        const std::uint64_t low = plane & 0xffu, high = plane >> 32u & 0xffu;
+        key = length == 1 ? low : key << 16u | low << 8u | high;
     }
     return key;
 }

@@ -5,17 +5,6 @@
 
 namespace sightlines::voxel_rows {
 
-/// A row as 64-bit words, bit u in bit u % 64 of word u / 64.
-template <int length>
-using RowPlanes = std::array<std::uint64_t, (static_cast<std::size_t>(length) + 1) / 2>;
-
-template <int length>
-RowPlanes<length> planes_of(const RowBits<length>& row) {
-    RowPlanes<length> planes{};
-    for (std::size_t k = 0; k < length; ++k) planes[k / 2] |= std::uint64_t{row.words[k]} << (32 * (k % 2));
-    return planes;
-}
-
 inline std::uint32_t reversed(std::uint32_t word) {
     word = (word & 0x55555555u) << 1u | (word >> 1u & 0x55555555u);
     word = (word & 0x33333333u) << 2u | (word >> 2u & 0x33333333u);
