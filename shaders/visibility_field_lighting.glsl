@@ -1,12 +1,16 @@
 // The body of visibility_field_lighting*.comp: Algorithm 2 of Xu 2022, one invocation a pixel, a range of its samples.
 // Each invocation runs ahead to its own next sample that needs a ray, so that all of a subgroup trace at the same time
 // however few of their samples are left.
-// A device with ray queries would answer is_blocked_by_tree by one of its own; everything else stays.
+// Rays are answered by the tree, or by the device's own ray queries (RAYS_BY_QUERY).
 
 #include "harmonic_light.h"
 #include "ray_tree.h"
 #include "visibility_field.h"
 #include "visibility_field_lighting_data.h"
+
+#ifdef RAYS_BY_QUERY
+#include "ray_query.glsl"
+#endif
 
 layout(local_size_x = 64) in;
 
@@ -123,7 +127,11 @@ void main() {
             }
         }
         if (waits) {
+#ifdef RAYS_BY_QUERY
+            const bool blocked = is_blocked_by_query(tree, field.ray_scene, pixel.origin, direction);
+#else
             const bool blocked = is_blocked_by_tree(tree, pixel.origin, direction);
+#endif
             sums.traced += 1u;
             sums.traced_blocked += blocked ? 1u : 0u;
             sums.blocked += blocked ? 1u : 0u;

@@ -6,10 +6,12 @@
 
 #ifdef __cplusplus
 #define ADDRESS_OF(Buffer) std::uint64_t
+#define ADDRESS_WORDS std::uint64_t
 #else
 #include "ray_tree_memory.h"
 #include "visibility_field_memory.h"
 #define ADDRESS_OF(Buffer) Buffer
+#define ADDRESS_WORDS uvec2
 #endif
 
 SHARED_BEGIN
@@ -50,7 +52,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer FieldSumTab
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer FieldVerdicts { uint v[]; };
 #endif
 
-/// What stays the same while a field is asked. 104 bytes, scalar layout.
+/// What stays the same while a field is asked. 112 bytes, scalar layout. Rays are answered by the tree, or, where the
+/// device is asked by ray queries, by `ray_scene`; `triangles` are then those whose holes are in `cutouts`.
 struct FieldTables {
     FieldShape shape;
     ADDRESS_OF(Bricks) bricks;
@@ -59,6 +62,7 @@ struct FieldTables {
     ADDRESS_OF(FourWordTable) nodes;
     ADDRESS_OF(FourWordTable) triangles;
     ADDRESS_OF(FourWordTable) cutouts;
+    ADDRESS_WORDS ray_scene;
     uint node_count;
     float surface_offset_m;   // rays start so far above their surface
 };
@@ -88,7 +92,7 @@ SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(sightlines::AskingPoint) == 44 && sizeof(sightlines::FieldSums) == 60);
-static_assert(sizeof(sightlines::FieldTables) == 104 && sizeof(sightlines::FieldLightingJob) == 72);
+static_assert(sizeof(sightlines::FieldTables) == 112 && sizeof(sightlines::FieldLightingJob) == 72);
 #endif
 
 #endif

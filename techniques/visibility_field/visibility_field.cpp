@@ -349,6 +349,12 @@ Statistics statistics(const Structure& structure) {
                           2.0 * static_cast<double>(cells.size()) - static_cast<double>(distinct), ""},
                          {"bytes packed", static_cast<double>(field.bytes()), "B"},
                          {"bytes in the paper's layout", static_cast<double>(dense_bytes(shape)), "B"}};
+    if (built.on_device) {
+        const auto [rays, bytes] = rays_used(*built.on_device);
+        const bool queries = rays == DeviceRays::queries;
+        statistics.values.push_back({queries ? "acceleration structure, asked by ray queries" : "ray tree on the device",
+                                     static_cast<double>(bytes), "B"});
+    }
     return statistics;
 }
 

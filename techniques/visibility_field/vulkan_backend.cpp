@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdlib>
+#include <cstring>
 #include <optional>
 
 #include "shaders/spirv.h"
@@ -10,6 +12,7 @@
 #include "techniques/base/parallel.h"
 #include "techniques/compute/buffer.h"
 #include "techniques/compute/dispatch.h"
+#include "techniques/compute/ray_scene.h"
 #include "techniques/pixel_groups.h"
 #include "techniques/rays/open_rays.h"
 #include "techniques/visibility_field/weighted_samples.h"
@@ -18,8 +21,10 @@ namespace sightlines::visibility_field {
 
 struct FieldOnDevice {
     std::shared_ptr<const compute::Device> device;
-    compute::Buffer bricks, mask_numbers, masks, nodes, triangles, cutouts;
-    compute::Buffer tables;  ///< FieldTables
+    compute::Buffer bricks, mask_numbers, masks;
+    compute::Buffer nodes, triangles, cutouts;     ///< the tree's, or no nodes and the triangles that have holes
+    std::optional<compute::RayScene> ray_scene{};  ///< where rays are answered by ray queries
+    compute::Buffer tables;                        ///< FieldTables
     bool has_field = false;
     std::optional<compute::Pipeline> pipeline;
     std::optional<compute::BoundTexels> texels;  ///< where the tree is read as texels
@@ -42,14 +47,16 @@ compute::Buffer on_device(const std::shared_ptr<const compute::Device>& device, 
 /// A software device reads an address word by word and ray by ray, but a texel of 16 bytes at once.
 bool reads_texels(const FieldOnDevice& field) {
     const std::uint64_t largest = std::max({field.nodes.bytes, field.triangles.bytes, field.cutouts.bytes});
-    return field.device->info.kind == compute::DeviceKind::cpu && compute::fits_as_texels(*field.device, largest);
+    return field.device->info.kind == compute::DeviceKind::cpu && !field.ray_scene &&
+           compute::fits_as_texels(*field.device, largest);
 }
 
 void make_pipeline(FieldOnDevice& field) {
     const bool texels = reads_texels(field);
-    field.pipeline = compute::make_pipeline(
-        field.device, texels ? spirv::visibility_field_lighting_texels() : spirv::visibility_field_lighting(),
-        sizeof(FieldLightingJob), {}, texels ? 3 : 0);
+    const auto shader = field.ray_scene ? spirv::visibility_field_lighting_queries()
+                        : texels        ? spirv::visibility_field_lighting_texels()
+                                        : spirv::visibility_field_lighting();
+    field.pipeline = compute::make_pipeline(field.device, shader, sizeof(FieldLightingJob), {}, texels ? 3 : 0);
     if (!texels) return;
     const std::array<compute::TexelSource, 3> sources{{{&field.nodes, VK_FORMAT_R32G32B32A32_UINT},
                                                        {&field.triangles, VK_FORMAT_R32G32B32A32_UINT},
@@ -215,26 +222,83 @@ void resolve(const TileAsker& asker, const PixelGroups& pixels, EnvironmentResul
     }
 }
 
+std::uint64_t bytes_of(const std::vector<uvec4>& table) { return table.size() * sizeof(uvec4); }
+
+compute::Buffer triangles_on_device(const std::shared_ptr<const compute::Device>& device,
+                                    const std::vector<uvec4>& corners, const Progress& progress) {
+    compute::Buffer buffer = compute::make_buffer(device, std::max<std::uint64_t>(bytes_of(corners), 16),
+                                                  compute::MemoryPlace::device, compute::holds_triangles);
+    compute::upload(buffer, std::as_bytes(std::span(corners)), progress);
+    return buffer;
+}
+
+/// The driver's own structure over the triangles. Those with holes stay, to be looked up.
+void give_ray_scene(FieldOnDevice& field, const TriangleTables& tables, Progress& progress) {
+    progress.begin("building the device's own ray structure", 1);
+    const compute::Buffer opaque = triangles_on_device(field.device, tables.opaque, progress);
+    field.triangles = triangles_on_device(field.device, tables.masked, progress);
+    const auto list = [](const compute::Buffer& corners, const std::vector<uvec4>& words, bool is_opaque) {
+        return compute::TriangleList{&corners, sizeof(uvec4), static_cast<std::uint32_t>(words.size() / 3), is_opaque};
+    };
+    const std::array<compute::TriangleList, 2> lists{list(opaque, tables.opaque, true),
+                                                     list(field.triangles, tables.masked, false)};
+    progress.check();
+    field.ray_scene = compute::build_ray_scene(field.device, lists);
+    field.cutouts = on_device(field.device, tables.cutouts, progress);
+    progress.advance();
+}
+
+/// What answers rays. Returns the number of the tree's nodes.
+std::uint32_t give_rays(FieldOnDevice& field, const EmbreeScene& embree, int threads, DeviceRays wanted,
+                        Progress& progress) {
+    if (wanted == DeviceRays::queries && triangle_count(embree) <= field.device->most_query_triangles &&
+        field.device->info.queries_rays) {
+        give_ray_scene(field, list_triangles(embree), progress);
+        field.nodes = on_device(field.device, std::vector<uvec4>(), progress);
+        return 0;
+    }
+    const RayTree tree = build_ray_tree(embree, threads, progress);
+    field.nodes = on_device(field.device, tree.nodes, progress);
+    field.triangles = on_device(field.device, tree.triangles, progress);
+    field.cutouts = on_device(field.device, tree.cutouts, progress);
+    return tree.node_count();
+}
+
 }  // namespace
 
+DeviceRays device_rays_wanted() {
+    const char* asked = std::getenv("SIGHTLINES_RAY_QUERIES");
+    return asked != nullptr && std::strcmp(asked, "0") == 0 ? DeviceRays::tree : DeviceRays::queries;
+}
+
+DeviceRaysUsed rays_used(const FieldOnDevice& field) {
+    const std::uint64_t tables = field.nodes.bytes + field.triangles.bytes + field.cutouts.bytes;
+    if (!field.ray_scene) return {DeviceRays::tree, tables};
+    return {DeviceRays::queries, tables + field.ray_scene->bytes()};
+}
+
 std::shared_ptr<const FieldOnDevice> give_to_vulkan(const VisibilityField* field, const EmbreeScene& embree,
-                                                    int threads, Progress& progress) {
-    const RayTree tree = build_ray_tree(embree, threads, progress);
+                                                    int threads, Progress& progress, DeviceRays wanted) {
     auto made = std::make_shared<FieldOnDevice>();
     made->device = compute::open_device();
+    const std::uint32_t nodes = give_rays(*made, embree, threads, wanted, progress);
     made->has_field = field != nullptr;
     const VisibilityField nothing;
     const VisibilityField& given = field != nullptr ? *field : nothing;
     made->bricks = on_device(made->device, given.bricks, progress);
     made->mask_numbers = on_device(made->device, given.mask_numbers, progress);
     made->masks = on_device(made->device, given.masks, progress);
-    made->nodes = on_device(made->device, tree.nodes, progress);
-    made->triangles = on_device(made->device, tree.triangles, progress);
-    made->cutouts = on_device(made->device, tree.cutouts, progress);
     const float surface_offset_m = lifted_off(embree, vec3(0.0f), vec3(1.0f, 0.0f, 0.0f)).x;
-    const FieldTables tables{given.shape,           made->bricks.address, made->mask_numbers.address,
-                             made->masks.address,   made->nodes.address,  made->triangles.address,
-                             made->cutouts.address, tree.node_count(),    surface_offset_m};
+    const FieldTables tables{given.shape,
+                             made->bricks.address,
+                             made->mask_numbers.address,
+                             made->masks.address,
+                             made->nodes.address,
+                             made->triangles.address,
+                             made->cutouts.address,
+                             made->ray_scene ? made->ray_scene->address() : 0,
+                             nodes,
+                             surface_offset_m};
     made->tables = on_device(made->device, std::vector<FieldTables>{tables}, progress);
     make_pipeline(*made);
     return made;
@@ -262,7 +326,7 @@ EnvironmentResult render_on_vulkan(const FieldOnDevice& field, const Environment
         progress.advance();
     }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    result.device = field.device->info.name;
+    result.device = field.device->info.name + (field.ray_scene ? ", ray queries" : ", ray tree");
     return result;
 }
 

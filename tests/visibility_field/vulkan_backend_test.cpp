@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 
 #include <gtest/gtest.h>
 
@@ -19,22 +20,29 @@ namespace {
     if (compute::list_devices().empty() || !compute::list_devices().front().lacks.empty()) \
     GTEST_SKIP() << "no usable Vulkan device"
 
+#define NEEDS_RAY_QUERIES \
+    NEEDS_VULKAN;         \
+    if (!compute::list_devices().front().queries_rays) GTEST_SKIP() << "no Vulkan device with ray queries"
+
 /// The courtyard, a field of it on both backends, and what is asked.
 struct Case {
     Progress progress;
-    Scene scene = testing::courtyard();
-    std::shared_ptr<const EmbreeScene> embree = test::built(scene);
+    Scene scene;
+    std::shared_ptr<const EmbreeScene> embree;
     SurfaceBuffer surfaces;
     SamplePattern pattern;
     VisibilityField field;
     std::shared_ptr<const FieldOnDevice> device;
     EnvironmentRequest request;
 
-    explicit Case(int samples = 40, bool with_field = true)
-        : surfaces(test::seen(scene, *embree, testing::courtyard_camera(), {75, 43})),
+    explicit Case(int samples = 40, bool with_field = true, DeviceRays rays = DeviceRays::tree,
+                  Scene scene_ = testing::courtyard())
+        : scene(std::move(scene_)),
+          embree(test::built(scene)),
+          surfaces(test::seen(scene, *embree, testing::courtyard_camera(), {75, 43})),
           pattern(make_pattern(samples, 1)),
           field(testing::baked(scene, *embree, testing::small_bake())),
-          device(give_to_vulkan(with_field ? &field : nullptr, *embree, 2, progress)) {
+          device(give_to_vulkan(with_field ? &field : nullptr, *embree, 2, progress, rays)) {
         request.surfaces = &surfaces;
         request.pattern = &pattern;
         request.light.coefficient = {vec3(3.0f, 3.2f, 3.5f),
@@ -142,6 +150,54 @@ TEST(FieldOnVulkan, AnswersSamplesThatHaveWeightsOfTheirOwn) {
         asked.request.glossy = glossy;
         expect_alike(asked, asked.on_cpu(), asked.on_vulkan());
     }
+}
+
+/// The courtyard with a sheet whose texture has holes: bars.
+Scene courtyard_with_holes() {
+    Scene scene = testing::courtyard();
+    Texture bars;
+    bars.texels = Image<glm::u8vec4>({4, 1}, glm::u8vec4(255));
+    bars.texels.at(1, 0).a = bars.texels.at(2, 0).a = 0;
+    scene.textures.push_back(bars);
+    scene.materials[1].alpha_mode = AlphaMode::mask;
+    scene.materials[1].base_color_texture = TextureLookup{.texture = 0, .scale = vec2(9.0f)};
+    // Spheres have none of their own.
+    scene.texture_coordinates[0].assign(scene.positions.size(), vec2(0.0f));
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t)
+        if (scene.triangle_materials[t] == 1)
+            for (int corner = 0; corner < 3; ++corner) {
+                const vec3 at = scene.positions[scene.triangles[t][corner]];
+                scene.texture_coordinates[0][scene.triangles[t][corner]] = {at.z, at.y};
+            }
+    return scene;
+}
+
+TEST(FieldOnVulkan, AgreesWithTheCpuByRayQueries) {
+    NEEDS_RAY_QUERIES;
+    for (const bool holes : {false, true}) {
+        Case asked(100, true, DeviceRays::queries, holes ? courtyard_with_holes() : testing::courtyard());
+        ASSERT_EQ(rays_used(*asked.device).rays, DeviceRays::queries);
+        for (const Culling culling : {Culling::label, Culling::both}) {
+            asked.request.culling = culling;
+            expect_alike(asked, asked.on_cpu(), asked.on_vulkan());
+        }
+    }
+    Case all(40, false, DeviceRays::queries);
+    expect_alike(all, all.on_cpu(false), all.on_vulkan());
+}
+
+TEST(FieldOnVulkan, TakesRayQueriesUnlessTheTreeIsAskedForAndSaysSo) {
+    NEEDS_RAY_QUERIES;
+    setenv("SIGHTLINES_RAY_QUERIES", "0", 1);
+    const DeviceRays refused = device_rays_wanted();
+    unsetenv("SIGHTLINES_RAY_QUERIES");
+    EXPECT_EQ(refused, DeviceRays::tree);
+    EXPECT_EQ(device_rays_wanted(), DeviceRays::queries);
+    Case by_tree, by_queries(40, true, DeviceRays::queries);
+    EXPECT_NE(by_tree.on_vulkan().device.find("ray tree"), std::string::npos);
+    EXPECT_NE(by_queries.on_vulkan().device.find("ray queries"), std::string::npos);
+    EXPECT_GT(rays_used(*by_tree.device).bytes, 10'000u);
+    EXPECT_GT(rays_used(*by_queries.device).bytes, 10'000u);
 }
 
 TEST(FieldOnVulkan, StopsWhenCancelled) {
