@@ -86,8 +86,9 @@ struct TileAsker {
     HarmonicLight light;
     compute::Buffer directions{}, surfaces{}, sums{}, verdicts{};  ///< of one tile but for the directions; mapped
     FieldLightingJob job{};
-    std::vector<DrawnPixel> weighted{};  ///< of the tile's pixels, where samples have weights of their own
-    double pairs_per_second = 2.0e6;     ///< of the last dispatch; at first a guess low enough for any device
+    WeightedTables weighted_tables{};       ///< where samples have weights of their own
+    std::vector<WeightedPixel> weighted{};  ///< of the tile's pixels, there
+    double pairs_per_second = 2.0e6;        ///< of the last dispatch; at first a guess low enough for any device
 
     std::span<FieldSums> tile_sums() const {
         return {reinterpret_cast<FieldSums*>(sums.mapped.data()), sums.bytes / sizeof(FieldSums)};
@@ -114,6 +115,7 @@ TileAsker make_asker(const FieldOnDevice& field, const EnvironmentRequest& reque
     asker.directions =
         weighted ? host_buffer(field, padded * samples * sizeof(vec3)) : on_device(field.device, directions, progress);
     asker.job.own_directions = weighted ? 1 : 0;
+    if (weighted) asker.weighted_tables = weighted_tables(request);
     asker.surfaces = host_buffer(field, padded * sizeof(AskingPoint));
     asker.sums = host_buffer(field, padded * sizeof(FieldSums));
     asker.verdicts = host_buffer(field, padded * words * sizeof(std::uint32_t));
@@ -158,8 +160,8 @@ void place_samples(TileAsker& asker, const PixelGroups& pixels) {
     parallel_for(static_cast<std::int64_t>(pixels.pixel.size()), asker.request.threads, [&](std::int64_t index) {
         const auto k = static_cast<std::size_t>(index);
         if (pixels.pixel[k] == no_triangle) return;
-        asker.weighted[k] = draw_samples(asker.request, pixels.pixel[k]);
-        std::ranges::copy(asker.weighted[k].directions, directions + k * asker.job.samples);
+        asker.weighted[k] = weighted_pixel(asker.request, pixels.pixel[k]);
+        draw_samples(asker.weighted_tables, asker.weighted[k], {directions + k * asker.job.samples, asker.job.samples});
     });
 }
 
@@ -203,8 +205,10 @@ void resolve(const TileAsker& asker, const PixelGroups& pixels, EnvironmentResul
         count(sums, asker.job.samples, result.counts);
         result.rays_traced.pixels[pixel] = sums.traced;
         if (asker.job.own_directions != 0) {
-            resolve_weighted(asker.request, pixel, asker.weighted[k], asker.tile_verdicts().subspan(k * words, words),
-                             result);
+            const auto* directions = reinterpret_cast<const vec3*>(asker.directions.mapped.data());
+            resolve_weighted(asker.request, asker.weighted_tables, pixel, asker.weighted[k],
+                             {directions + k * asker.job.samples, asker.job.samples},
+                             asker.tile_verdicts().subspan(k * words, words), result);
             continue;
         }
         PixelMoments moments;
