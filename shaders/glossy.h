@@ -30,8 +30,8 @@ FN Real hidden_to_seen(float width, Real height) {
 FN Real normal_density(float width, Vec3 normal) {
     const float w = width * width;
     // Instead of 1 - z * z, which loses all digits near the middle.
-    const Real flat = fused(normal.y, normal.y, normal.x * normal.x);
-    const Real spread = fused(splat(w) * normal.z, normal.z, flat);
+    const Real level = fused(normal.y, normal.y, normal.x * normal.x);
+    const Real spread = fused(splat(w) * normal.z, normal.z, level);
     return splat(w * 0.318309886f) / (spread * spread);
 }
 

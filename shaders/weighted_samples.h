@@ -34,6 +34,11 @@ FN Real shifted(Real number, float shift) {
     return min(select(moved < splat(1.0f), moved, moved - splat(1.0f)), splat(0.99999994f));
 }
 
+/// Whether a direction leaves the surface as it is shaded and as it is.
+FN Mask leaves_sampled(SampledSurface surface, Vec3 direction) {
+    return leaves_surface(surface.up, direction) && leaves_surface(surface.normal, direction);
+}
+
 FN HemisphereFrame frame_of(SampledSurface surface) {
     HemisphereFrame frame;
     frame.tangent = surface.tangent;
@@ -67,7 +72,7 @@ FN DrawnSample draw_sample(SampledSurface surface, MapDraws draws, uint way, Rea
         drawn.direction = mirrored_sample(surface, u, v);
     else
         drawn.direction = cosine_sample(surface, u, v);
-    drawn.above = leaves_surface(surface.up, drawn.direction) && leaves_surface(surface.normal, drawn.direction);
+    drawn.above = leaves_sampled(surface, drawn.direction);
     return drawn;
 }
 

@@ -45,6 +45,22 @@ void count_ways(const EnvironmentRequest& request, const Gloss& gloss, WeightedP
     pixel.surface.weighs_alike = !request.glossy && pixel.map == 0 ? 1 : 0;
 }
 
+/// The directions of a pixel's samples.
+void draw_samples(const WeightedTables& tables, const WeightedPixel& pixel, std::span<vec3> to) {
+    draw_by_vectors(tables, WideTables(tables), pixel,
+                    [&](std::uint32_t first, const wide::DrawnSample& drawn, wide::Mask inside) HWY_ATTR {
+                        float axes[3][wide::lanes];
+                        wide::store(drawn.direction.x, axes[0]);
+                        wide::store(drawn.direction.y, axes[1]);
+                        wide::store(drawn.direction.z, axes[2]);
+                        const std::uint32_t used = wide::bits_of(inside), above = wide::bits_of(drawn.above);
+                        for (std::uint32_t lane = 0; used >> lane != 0 && lane < wide::lanes; ++lane)
+                            to[first + lane] = (above >> lane & 1u) != 0
+                                                   ? vec3(axes[0][lane], axes[1][lane], axes[2][lane])
+                                                   : -pixel.surface.normal;
+                    });
+}
+
 /// Whether a sample that `draw_samples` drew leaves its surface: others point straight into it.
 bool leaves(const SampledSurface& surface, vec3 direction) { return direction != -surface.normal; }
 
@@ -105,21 +121,6 @@ WeightedTables weighted_tables(const EnvironmentRequest& request) {
     return tables;
 }
 
-void draw_samples(const WeightedTables& tables, const WeightedPixel& pixel, std::span<vec3> to) {
-    draw_by_vectors(tables, WideTables(tables), pixel,
-                    [&](std::uint32_t first, const wide::DrawnSample& drawn, wide::Mask inside) HWY_ATTR {
-                        float axes[3][wide::lanes];
-                        wide::store(drawn.direction.x, axes[0]);
-                        wide::store(drawn.direction.y, axes[1]);
-                        wide::store(drawn.direction.z, axes[2]);
-                        const std::uint32_t used = wide::bits_of(inside), above = wide::bits_of(drawn.above);
-                        for (std::uint32_t lane = 0; used >> lane != 0 && lane < wide::lanes; ++lane)
-                            to[first + lane] = (above >> lane & 1u) != 0
-                                                   ? vec3(axes[0][lane], axes[1][lane], axes[2][lane])
-                                                   : -pixel.surface.normal;
-                    });
-}
-
 std::vector<PixelSample> weighted_samples(const EnvironmentRequest& request, std::size_t index) {
     const WeightedTables tables = weighted_tables(request);
     const WeightedPixel pixel = weighted_pixel(request, index);
@@ -129,31 +130,6 @@ std::vector<PixelSample> weighted_samples(const EnvironmentRequest& request, std
     for (const vec3 direction : directions) samples.push_back({direction, vec3(0.0f)});
     weigh_each(WideTables(tables), pixel, samples);
     return samples;
-}
-
-void resolve_weighted(const EnvironmentRequest& request, const WeightedTables& tables, std::size_t pixel,
-                      const WeightedPixel& drawn, std::span<const vec3> directions,
-                      std::span<const std::uint32_t> blocked, EnvironmentResult& result) {
-    Directions open(directions.size());
-    std::uint32_t asked = 0, in_the_way = 0;
-    for (std::size_t k = 0; k < directions.size(); ++k) {
-        if (!leaves(drawn.surface, directions[k])) continue;
-        ++asked;
-        const bool is_blocked = (blocked[k / 32] >> (k % 32) & 1u) != 0;
-        in_the_way += is_blocked;
-        if (is_blocked && request.keep_verdicts)
-            result.verdicts.words[pixel * result.verdicts.words_per_pixel + k / 32] |= 1u << (k % 32);
-        if (is_blocked) continue;
-        open.x[open.count] = directions[k].x;
-        open.y[open.count] = directions[k].y;
-        open.z[open.count++] = directions[k].z;
-    }
-    const vec3 irradiance = sum_of_weighed(WideTables(tables), drawn.surface, open);
-    result.irradiance.pixels[pixel] = irradiance;
-    result.radiance.pixels[pixel] = reflected_radiance(request, pixel, irradiance);
-    result.rays_asked.pixels[pixel] = asked;
-    result.shadow.pixels[pixel] =
-        static_cast<float>(in_the_way) / static_cast<float>(std::max<std::uint32_t>(asked, 1));
 }
 
 }  // namespace sightlines::visibility_field

@@ -2,7 +2,6 @@
 // and Guibas 1995). Those of the paper, by the cosine, all weigh the same. By vectors: shaders/weighted_samples.h.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "shaders/weighted_samples_data.h"
@@ -43,14 +42,5 @@ struct WeightedTables {
     const MapDistribution* draws = nullptr;  ///< null where no sample is drawn by the map
 };
 WeightedTables weighted_tables(const EnvironmentRequest& request);
-
-/// The directions of a pixel's samples, not yet weighed: most are blocked. `to` has room for all.
-void draw_samples(const WeightedTables& tables, const WeightedPixel& pixel, std::span<vec3> to);
-
-/// Writes what a pixel's samples come to. `blocked`: sample k is in bit k % 32 of word k / 32; samples below their
-/// surface are not looked at.
-void resolve_weighted(const EnvironmentRequest& request, const WeightedTables& tables, std::size_t pixel,
-                      const WeightedPixel& drawn, std::span<const vec3> directions,
-                      std::span<const std::uint32_t> blocked, EnvironmentResult& result);
 
 }  // namespace sightlines::visibility_field

@@ -63,9 +63,12 @@ struct Case {
     }
 };
 
-/// At most one answer in 50,000 differs; pixels without such rays differ by rounding.
-void expect_alike(const Case& asked, const EnvironmentResult& cpu, const EnvironmentResult& vulkan) {
-    std::uint64_t differing = 0, alike = 0;
+/// At most one answer in 50,000 differs; pixels without such rays differ by rounding. Where samples have weights of
+/// their own (`share`: of a pixel, by which it may differ) one in 500 may differ by more: a sample at the edge of a
+/// map's texel.
+void expect_alike(const Case& asked, const EnvironmentResult& cpu, const EnvironmentResult& vulkan,
+                  float share = 0.0f) {
+    std::uint64_t differing = 0, alike = 0, beyond = 0;
     for (std::size_t p = 0; p < asked.surfaces.size.pixels(); ++p) {
         std::uint64_t differing_here = 0;
         for (std::size_t w = 0; w < cpu.verdicts.words_per_pixel; ++w) {
@@ -76,10 +79,13 @@ void expect_alike(const Case& asked, const EnvironmentResult& cpu, const Environ
         differing += differing_here;
         if (differing_here > 0 || asked.surfaces.triangle[p] == no_triangle) continue;
         ++alike;
-        ASSERT_LT(glm::distance(cpu.irradiance.pixels[p], vulkan.irradiance.pixels[p]), 2e-5f) << p;
-        ASSERT_LT(glm::distance(cpu.radiance.pixels[p], vulkan.radiance.pixels[p]), 1e-5f) << p;
+        const float apart = glm::distance(cpu.irradiance.pixels[p], vulkan.irradiance.pixels[p]);
+        beyond += apart >= 2e-5f + share * glm::length(cpu.irradiance.pixels[p]);
+        const float radiance_apart = glm::distance(cpu.radiance.pixels[p], vulkan.radiance.pixels[p]);
+        beyond += radiance_apart >= 1e-5f + share * glm::length(cpu.radiance.pixels[p]);
         ASSERT_FLOAT_EQ(cpu.shadow.pixels[p], vulkan.shadow.pixels[p]) << p;
     }
+    EXPECT_LE(beyond, share > 0.0f ? alike / 500 : 0);
     EXPECT_LE(differing, cpu.counts.samples / 50'000);
     EXPECT_GT(alike, 1500u);
     EXPECT_EQ(cpu.counts.samples, vulkan.counts.samples);
@@ -143,13 +149,17 @@ TEST(FieldOnVulkan, AnswersSamplesThatHaveWeightsOfTheirOwn) {
     Case asked;
     const EnvironmentLight sky = make_environment_light(procedural_sky({}));
     const MapDistribution distribution = make_distribution(sky);
-    asked.request.map = &sky;
     asked.request.distribution = &distribution;
-    asked.request.sampling = Sampling::both;
-    for (const bool glossy : {false, true}) {
-        asked.request.glossy = glossy;
-        expect_alike(asked, asked.on_cpu(), asked.on_vulkan());
-    }
+    for (const bool from_map : {false, true})
+        for (const bool glossy : {false, true})
+            for (const Sampling sampling : {Sampling::cosine, Sampling::brdf, Sampling::map, Sampling::both}) {
+                asked.request.map = from_map ? &sky : nullptr;
+                asked.request.glossy = glossy;
+                asked.request.sampling = sampling;
+                const EnvironmentResult cpu = asked.on_cpu();
+                EXPECT_LT(cpu.counts.traced, cpu.counts.samples * 9 / 10);
+                expect_alike(asked, cpu, asked.on_vulkan(), 1e-4f);
+            }
 }
 
 /// The courtyard with a sheet whose texture has holes: bars.
