@@ -209,8 +209,7 @@ void field_glossy(MeasuredTable& table, BenchRun& run, Results& results, Progres
         "says "
         "neither its roughness nor its samples; its speed-ups follow from its times.");
     table.notes.emplace_back(
-        "Here samples of glossy surfaces are drawn one by one, not by vectors, which takes most of the time with a "
-        "field: the speed-up is less than the rays that are saved.");
+        "The speed-up is less than the rays that are saved: those that are left are the long ones.");
     table.notes.emplace_back(
         "RMSE: of what is reflected, times pi, in percent of the mean unshadowed irradiance of the same surfaces.");
 }

@@ -1,16 +1,25 @@
 // The body of visibility_field_lighting*.comp: Algorithm 2 of Xu 2022, one invocation a pixel, a range of its samples.
 // Each invocation runs ahead to its own next sample that needs a ray, so that all of a subgroup trace at the same time
 // however few of their samples are left.
-// A device with ray queries would answer is_blocked_by_tree by one of its own; everything else stays.
+// Rays are answered by the tree, or by the device's own ray queries (RAYS_BY_QUERY).
 
 #include "harmonic_light.h"
 #include "ray_tree.h"
 #include "visibility_field.h"
 #include "visibility_field_lighting_data.h"
+#include "weighted_samples.h"
+
+#ifdef RAYS_BY_QUERY
+#include "ray_query.glsl"
+#endif
 
 layout(local_size_x = 64) in;
 
 layout(push_constant, scalar) uniform Push { FieldLightingJob job; };
+
+layout(constant_id = 0) const uint sample_kind = 0u;
+
+bool samples_are(uint kind) { return (sample_kind & kind) != 0u; }
 
 /// What is known of a pixel before its samples.
 struct AskingPixel {
@@ -47,10 +56,72 @@ AskingPixel make_pixel(FieldTables field, AskingPoint surface) {
     return pixel;
 }
 
-vec3 sample_direction(AskingPixel pixel, uint pixel_index, uint index) {
-    if (job.own_directions != 0u) return job.directions.v[pixel_index * job.samples + index].direction;
+/// What samples that have weights of their own are drawn about and lit by. Read once: software devices take a word and a lane
+/// at a time.
+SampledSurface sampled;
+WeightedLight light;
+
+void read_weighted(uint pixel_index) {
+    if (!samples_are(samples_weighted)) return;
+    sampled = job.sampled.v[pixel_index];
+    sampled.is_glossy = samples_are(samples_of_glossy) ? 1u : 0u;
+    sampled.map = samples_are(samples_by_map) ? sampled.map : 0.0f;
+    light = job.light.v[0];
+}
+
+MapDraws map_draws() {
+    MapDraws draws;
+    draws.shape = light.draws;
+    draws.rows = light.rows;
+    draws.heights = light.heights;
+    draws.columns = light.columns;
+    draws.densities = light.densities;
+    return draws;
+}
+
+/// The sample's point of the unit square (Hammersley's) and its way, by its number: first those by the cosine, then mirrored
+/// ones, then the map's.
+DrawnSample weighted_sample(uint index) {
+    const uint before_mirrored = uint(sampled.cosine);
+    const uint before_map = before_mirrored + uint(sampled.mirrored);
+    const uint way = index < before_mirrored ? drawn_by_cosine : index < before_map ? drawn_by_facets : drawn_by_map;
+    const uint first = way == drawn_by_cosine ? 0u : way == drawn_by_facets ? before_mirrored : before_map;
+    const uint count = way == drawn_by_cosine  ? before_mirrored
+                       : way == drawn_by_facets ? before_map - before_mirrored
+                                               : job.samples - before_map;
+    const float strata = count > 1u ? float(2u << uint(findMSB(count - 1u))) : 1.0f;
+    const float u = (float(index - first) + 0.5f) * (1.0f / float(count));
+    const float v = float(bitfieldReverse(index - first) >> 8) * (1.0f / 16777216.0f) + 0.5f / strata;
+    DrawnSample drawn;
+    drawn.direction = -sampled.normal;
+    if (samples_are(samples_by_map) && way == drawn_by_map) drawn.direction = map_sample(sampled, map_draws(), u, v);
+    if (samples_are(samples_by_facets) && way == drawn_by_facets) drawn.direction = mirrored_sample(sampled, u, v);
+    if (samples_are(samples_by_cosine) && way == drawn_by_cosine) drawn.direction = cosine_sample(sampled, u, v);
+    drawn.above = leaves_sampled(sampled, drawn.direction);
+    return drawn;
+}
+
+/// A sample's direction, and whether it leaves its surface.
+DrawnSample make_sample(AskingPixel pixel, uint index) {
+    if (samples_are(samples_weighted)) return weighted_sample(index);
     const vec3 direction = job.directions.v[index].direction;
-    return direction_in(pixel.frame, direction.x, direction.y, direction.z);
+    DrawnSample drawn;
+    drawn.direction = direction_in(pixel.frame, direction.x, direction.y, direction.z);
+    drawn.above = leaves_surface(pixel.surface.normal, drawn.direction);
+    return drawn;
+}
+
+/// Adds what an open sample that has a weight of its own brings.
+void add_weighted(inout HarmonicMoments moments, vec3 direction) {
+    Surroundings surroundings;
+    surroundings.is_map = samples_are(samples_lit_by_map);
+    surroundings.harmonics = light.harmonics;
+    surroundings.map.shape = light.map;
+    surroundings.map.texels = light.texels;
+    const vec3 brings = weighed(sampled, surroundings, map_draws(), direction);
+    moments.of[0] += brings.x;
+    moments.of[1] += brings.y;
+    moments.of[2] += brings.z;
 }
 
 Decision decide(FieldTables field, AskingPixel pixel, vec3 direction, bool above) {
@@ -84,6 +155,14 @@ FieldSums sums_so_far(uint pixel_index) {
     return sums;
 }
 
+bool is_blocked(RayTreeTables tree, FieldTables field, vec3 origin, vec3 direction) {
+#ifdef RAYS_BY_QUERY
+    return is_blocked_by_query(tree, field.ray_scene, origin, direction);
+#else
+    return is_blocked_by_tree(tree, origin, direction);
+#endif
+}
+
 void main() {
     const uint pixel_index = gl_GlobalInvocationID.x;
     const AskingPoint surface = job.surfaces.v[pixel_index];
@@ -102,32 +181,39 @@ void main() {
     for (int term = 0; term < harmonic_terms; ++term) moments.of[term] = sums.moment[term];
     HeldVerdicts held;
     held.word = 0u;
+    read_weighted(pixel_index);
     uint index = job.first_sample;
     const uint end = asks ? job.end_sample : index;
     while (index < end) {
-        // To the next sample that needs a ray.
+        // To the next sample that needs a ray, or to be weighed.
         bool waits = false;
+        bool is_open = false;
         vec3 direction = vec3(0.0f);
         while (!waits && index < end) {
-            direction = sample_direction(pixel, pixel_index, index);
-            const bool above = leaves_surface(surface.normal, direction);
+            const DrawnSample drawn = make_sample(pixel, index);
+            direction = drawn.direction;
+            const bool above = drawn.above;
             const Decision decision = decide(field, pixel, direction, above);
             sums.asked += above ? 1u : 0u;
-            waits = decision.trace;
+            is_open = samples_are(samples_weighted) && decision.open;
+            waits = decision.trace || is_open;
             if (!waits) {
                 sums.blocked += above && decision.blocked ? 1u : 0u;
                 const float weight = pixel.subtracts ? (above ? 0.0f : -1.0f) : (decision.open ? 1.0f : 0.0f);
-                add_direction(moments, direction, weight);
+                if (!samples_are(samples_weighted)) add_direction(moments, direction, weight);
                 hold(held, pixel_index, index, above && decision.blocked);
                 ++index;
             }
         }
         if (waits) {
-            const bool blocked = is_blocked_by_tree(tree, pixel.origin, direction);
-            sums.traced += 1u;
+            const bool blocked = !is_open && is_blocked(tree, field, pixel.origin, direction);
+            sums.traced += is_open ? 0u : 1u;
             sums.traced_blocked += blocked ? 1u : 0u;
             sums.blocked += blocked ? 1u : 0u;
-            add_direction(moments, direction, pixel.subtracts ? (blocked ? -1.0f : 0.0f) : (blocked ? 0.0f : 1.0f));
+            if (!samples_are(samples_weighted))
+                add_direction(moments, direction, pixel.subtracts ? (blocked ? -1.0f : 0.0f) : (blocked ? 0.0f : 1.0f));
+            else if (!blocked)
+                add_weighted(moments, direction);
             hold(held, pixel_index, index, blocked);
             ++index;
         }

@@ -122,16 +122,19 @@ Listing list_parameters(const std::string& technique_name) {
 Listing list_devices() {
     Listing listing;
     listing.empty = "There is no Vulkan driver; the CPU backend needs none.";
-    listing.table.heading = {"device", "kind", "driver", "Vulkan", "memory", "usable"};
-    listing.table.align = {TableAlign::left, TableAlign::left, TableAlign::left, TableAlign::left, TableAlign::right};
+    listing.table.heading = {"device", "kind", "driver", "Vulkan", "ray queries", "memory", "usable"};
+    listing.table.align = {TableAlign::left, TableAlign::left, TableAlign::left,
+                           TableAlign::left, TableAlign::left, TableAlign::right};
     for (const compute::DeviceInfo& device : compute::list_devices()) {
         listing.table.rows.push_back({device.name, std::string(compute::title(device.kind)), device.driver,
-                                      device.vulkan_version, bytes_text(device.memory_bytes),
+                                      device.vulkan_version, device.queries_rays ? "yes" : "no",
+                                      bytes_text(device.memory_bytes),
                                       device.lacks.empty() ? "yes" : "lacks " + device.lacks});
         listing.json.push_back({{"name", device.name},
                                 {"kind", compute::title(device.kind)},
                                 {"driver", device.driver},
                                 {"vulkan", device.vulkan_version},
+                                {"ray_queries", device.queries_rays},
                                 {"memory_bytes", device.memory_bytes},
                                 {"largest_allocation_bytes", device.largest_allocation_bytes},
                                 {"subgroup_size", device.subgroup_size},

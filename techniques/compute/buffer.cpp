@@ -14,14 +14,15 @@ constexpr std::uint64_t staging_bytes = 16u << 20u;
 constexpr std::uint64_t page_bytes = 4096;
 constexpr std::uint32_t no_memory_type = VK_MAX_MEMORY_TYPES;
 
-DeviceOwned<VkBuffer, vkDestroyBuffer> make_handle(const Device& device, std::uint64_t bytes, const void* next) {
+DeviceOwned<VkBuffer, vkDestroyBuffer> make_handle(const Device& device, std::uint64_t bytes, VkBufferUsageFlags also,
+                                                   const void* next) {
     VkBufferCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     create.pNext = next;
     create.size = bytes;
     create.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                   VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+                   VK_BUFFER_USAGE_TRANSFER_DST_BIT | also;
     VkBuffer handle = VK_NULL_HANDLE;
     check(vkCreateBuffer(device.logical.get(), &create, nullptr, &handle), device,
           "making a buffer of " + bytes_text(bytes));
@@ -84,7 +85,8 @@ void copy(const Device& device, VkBuffer from, std::uint64_t from_offset, VkBuff
 
 }  // namespace
 
-Buffer make_buffer(const std::shared_ptr<const Device>& device, std::uint64_t bytes, MemoryPlace place) {
+Buffer make_buffer(const std::shared_ptr<const Device>& device, std::uint64_t bytes, MemoryPlace place,
+                   VkBufferUsageFlags also) {
     assert(bytes > 0);
     if (bytes > device->info.largest_allocation_bytes)
         throw EnvironmentError("Vulkan device " + device->info.name,
@@ -94,7 +96,7 @@ Buffer make_buffer(const std::shared_ptr<const Device>& device, std::uint64_t by
     Buffer buffer;
     buffer.device = device;
     buffer.bytes = bytes;
-    buffer.handle = make_handle(*device, bytes, nullptr);
+    buffer.handle = make_handle(*device, bytes, also, nullptr);
     VkMemoryRequirements requirements{};
     vkGetBufferMemoryRequirements(device->logical.get(), buffer.handle.get(), &requirements);
     const VkMemoryPropertyFlags reachable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
@@ -129,7 +131,7 @@ std::optional<Buffer> import_host_memory(const std::shared_ptr<const Device>& de
     Buffer buffer;
     buffer.device = device;
     buffer.bytes = bytes.size();
-    buffer.handle = make_handle(*device, whole, &external);
+    buffer.handle = make_handle(*device, whole, 0, &external);
     VkMemoryRequirements requirements{};
     vkGetBufferMemoryRequirements(device->logical.get(), buffer.handle.get(), &requirements);
     const std::uint32_t type = memory_type(*device, requirements.memoryTypeBits & types, 0, 0);

@@ -27,7 +27,9 @@ enum class MemoryPlace {
 };
 
 /// Uninitialised. EnvironmentError: larger than the device allows, or out of memory (says how much was asked).
-Buffer make_buffer(const std::shared_ptr<const Device>& device, std::uint64_t bytes, MemoryPlace place);
+/// `also`: uses besides those of every buffer.
+Buffer make_buffer(const std::shared_ptr<const Device>& device, std::uint64_t bytes, MemoryPlace place,
+                   VkBufferUsageFlags also = 0);
 
 /// The host's memory itself as a buffer, without a copy; nothing where the device cannot (no extension, or `bytes` does
 /// not start on the alignment it wants). The memory must outlive the buffer, and shaders may only read it.

@@ -1,7 +1,9 @@
 #include "techniques/compute/device.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "techniques/base/error.h"
 #include "techniques/compute/instance.h"
@@ -84,14 +86,26 @@ OwnedLogicalDevice make_logical_device(const Device& device) {
     features_13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     features_13.maintenance4 = VK_TRUE;  // glslc writes workgroup sizes as LocalSizeId; every Vulkan 1.3 device has it
     features_12.pNext = &features_13;
-    const char* extension = VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME;
+    VkPhysicalDeviceRayQueryFeaturesKHR queries{};
+    queries.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR;
+    queries.rayQuery = VK_TRUE;
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR structures{};
+    structures.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR;
+    structures.accelerationStructure = VK_TRUE;
+    structures.pNext = &queries;
+    std::vector<const char*> extensions;
+    if (device.info.imports_host_memory) extensions.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
+    if (device.info.queries_rays) {
+        extensions.insert(extensions.end(), ray_query_extensions.begin(), ray_query_extensions.end());
+        features_13.pNext = &structures;
+    }
     VkDeviceCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     create.pNext = &features_12;
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
-    create.enabledExtensionCount = device.info.imports_host_memory ? 1 : 0;
-    create.ppEnabledExtensionNames = &extension;
+    create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    create.ppEnabledExtensionNames = extensions.data();
     VkDevice logical = VK_NULL_HANDLE;
     check(vkCreateDevice(device.physical, &create, nullptr, &logical), device, "opening it");
     return OwnedLogicalDevice(logical);
@@ -100,12 +114,18 @@ OwnedLogicalDevice make_logical_device(const Device& device) {
 void read_limits(Device& device, std::uint32_t timestamp_bits) {
     VkPhysicalDeviceExternalMemoryHostPropertiesEXT host_memory{};
     host_memory.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTERNAL_MEMORY_HOST_PROPERTIES_EXT;
+    VkPhysicalDeviceAccelerationStructurePropertiesKHR structures{};
+    structures.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR;
     VkPhysicalDeviceProperties2 properties{};
     properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     if (device.info.imports_host_memory) properties.pNext = &host_memory;
+    if (device.info.queries_rays) structures.pNext = std::exchange(properties.pNext, &structures);
     vkGetPhysicalDeviceProperties2(device.physical, &properties);
     vkGetPhysicalDeviceMemoryProperties(device.physical, &device.memory);
     device.import_alignment_bytes = host_memory.minImportedHostPointerAlignment;
+    device.most_query_triangles = structures.maxPrimitiveCount;
+    device.scratch_alignment_bytes =
+        std::max<std::uint64_t>(structures.minAccelerationStructureScratchOffsetAlignment, 1);
     if (timestamp_bits == 64) device.seconds_per_tick = 1.0e-9 * properties.properties.limits.timestampPeriod;
 }
 

@@ -30,6 +30,7 @@ struct DeviceInfo {
     std::uint32_t subgroup_size = 0;
     std::uint32_t largest_workgroup = 0;  ///< invocations
     bool imports_host_memory = false;     ///< VK_EXT_external_memory_host
+    bool queries_rays = false;            ///< VK_KHR_ray_query over VK_KHR_acceleration_structure
     std::string lacks;                    ///< what it lacks of what we need; empty: usable
 };
 
@@ -77,9 +78,11 @@ struct Device {
     VkQueue queue = VK_NULL_HANDLE;
     DeviceOwned<VkCommandPool, vkDestroyCommandPool> command_pool;
     VkPhysicalDeviceMemoryProperties memory{};
-    std::uint64_t import_alignment_bytes = 0;  ///< of imported host memory's start and size; 0: cannot import
-    double seconds_per_tick = 0.0;             ///< of timestamps; 0: the queue has none
-    mutable std::mutex submission;             ///< held while recording and submitting: pool and queue are one thread's
+    std::uint64_t import_alignment_bytes = 0;   ///< of imported host memory's start and size; 0: cannot import
+    std::uint64_t most_query_triangles = 0;     ///< in one acceleration structure; 0: no ray queries
+    std::uint64_t scratch_alignment_bytes = 1;  ///< of memory that acceleration structures are built in
+    double seconds_per_tick = 0.0;              ///< of timestamps; 0: the queue has none
+    mutable std::mutex submission;  ///< held while recording and submitting: pool and queue are one thread's
 };
 
 /// Opens the device called `name`, or the most preferred one where `name` is empty. Needs Vulkan 1.3,

@@ -41,6 +41,22 @@ bool has_extension(VkPhysicalDevice physical, const char* name) {
                        [name](const auto& extension) { return std::strcmp(extension.extensionName, name) == 0; });
 }
 
+/// Ray queries in compute shaders, and what they are asked of.
+bool queries_rays(VkPhysicalDevice physical) {
+    for (const char* name : ray_query_extensions)
+        if (!has_extension(physical, name)) return false;
+    VkPhysicalDeviceRayQueryFeaturesKHR queries{};
+    queries.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR;
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR structures{};
+    structures.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR;
+    structures.pNext = &queries;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &structures;
+    vkGetPhysicalDeviceFeatures2(physical, &features);
+    return queries.rayQuery && structures.accelerationStructure;
+}
+
 bool has_compute_queue(VkPhysicalDevice physical) {
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
@@ -112,6 +128,7 @@ DeviceInfo describe(VkPhysicalDevice physical) {
     info.subgroup_size = properties_11.subgroupSize;
     info.largest_workgroup = properties.properties.limits.maxComputeWorkGroupInvocations;
     info.imports_host_memory = has_extension(physical, VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
+    info.queries_rays = queries_rays(physical);
     info.lacks = lacks(physical, properties.properties.apiVersion);
     return info;
 }

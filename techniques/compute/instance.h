@@ -1,9 +1,16 @@
 // How an instance is made and its devices are looked at; between device.cpp and list_devices only.
 #pragma once
 
+#include <array>
+
 #include "techniques/compute/device.h"
 
 namespace sightlines::compute {
+
+/// What ray queries need; all or none are asked for.
+inline constexpr std::array<const char*, 3> ray_query_extensions{VK_KHR_RAY_QUERY_EXTENSION_NAME,
+                                                                 VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                                                 VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
 
 /// The validation layer is installed, and asked for (see open_device).
 bool validation_wanted();

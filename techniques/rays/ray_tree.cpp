@@ -125,6 +125,12 @@ std::vector<SourceTriangle> all_triangles(const EmbreeScene& embree, std::vector
     return triangles;
 }
 
+void add_words(const SourceTriangle& triangle, std::vector<uvec4>& to) {
+    to.push_back(words(triangle.corners[0], triangle.cutout));
+    to.push_back(words(triangle.corners[1], 0));
+    to.push_back(words(triangle.corners[2], 0));
+}
+
 Box3 bounds_of(const SourceTriangle& triangle) {
     Box3 box;
     for (const vec3 corner : triangle.corners) box.add(corner);
@@ -153,12 +159,7 @@ struct Flattening {
         if (node.count > 0) {
             const auto first = static_cast<std::uint32_t>(tree.triangles.size() / 3);
             tree.nodes[at + 1].w = first * leaf_scale + node.count;
-            for (std::uint32_t k = 0; k < node.count; ++k) {
-                const SourceTriangle& triangle = source[node.triangles[k]];
-                tree.triangles.push_back(words(triangle.corners[0], triangle.cutout));
-                tree.triangles.push_back(words(triangle.corners[1], 0));
-                tree.triangles.push_back(words(triangle.corners[2], 0));
-            }
+            for (std::uint32_t k = 0; k < node.count; ++k) add_words(source[node.triangles[k]], tree.triangles);
         } else {
             const std::size_t larger = area(node.bounds[1]) > area(node.bounds[0]) ? 1 : 0;
             for (const std::size_t child : {larger, 1 - larger})
@@ -173,6 +174,17 @@ struct Flattening {
 };
 
 }  // namespace
+
+std::uint64_t triangle_count(const EmbreeScene& embree) {
+    return embree.scene_triangles[opaque_geometry].size() + embree.scene_triangles[masked_geometry].size();
+}
+
+TriangleTables list_triangles(const EmbreeScene& embree) {
+    TriangleTables tables;
+    for (const SourceTriangle& triangle : all_triangles(embree, tables.cutouts))
+        add_words(triangle, triangle.cutout == no_cutout ? tables.opaque : tables.masked);
+    return tables;
+}
 
 RayTree build_ray_tree(const EmbreeScene& embree, int threads, Progress& progress) {
     progress.begin("building the device's ray tree", 100);

@@ -21,6 +21,15 @@ struct RayTree {
     std::size_t bytes() const { return (nodes.size() + triangles.size() + cutouts.size()) * sizeof(uvec4); }
 };
 
+/// The same triangles for devices that sort them by themselves.
+struct TriangleTables {
+    std::vector<uvec4> opaque, masked;  ///< [..][3] each, as RayTree::triangles; all of `masked` have records
+    std::vector<uvec4> cutouts;         ///< as RayTree's
+};
+
+TriangleTables list_triangles(const EmbreeScene& embree);
+std::uint64_t triangle_count(const EmbreeScene& embree);
+
 /// Over the triangles of `embree`, with its holes. EnvironmentError where memory runs out or there are more than 2^29
 /// triangles.
 RayTree build_ray_tree(const EmbreeScene& embree, int threads, Progress& progress);

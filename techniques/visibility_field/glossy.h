@@ -1,8 +1,8 @@
-// Glossy surfaces (Figure 10): microfacets with the distribution GGX (Walter 2007), the masking of heights that go
-// together (Heitz 2014), and samples of the normals that are seen (Heitz 2018). All directions are about +z and point
-// away from the surface.
+// Glossy surfaces (Figure 10), for single directions: shaders/glossy.h. All directions are about +z and point away from
+// the surface.
 #pragma once
 
+#include "shaders/weighted_samples_data.h"
 #include "techniques/base/types.h"
 
 namespace sightlines::visibility_field {
@@ -19,14 +19,8 @@ struct Gloss {
 /// smoother than 0.05.
 Gloss make_gloss(vec3 albedo, float roughness, float metalness);
 
-/// The share of light that facets at this cosine reflect (Schlick 1994).
-vec3 facet_reflectance(vec3 head_on, float cosine);
-
-/// The density of facets' normals, per sr, for normals above the surface.
-float normal_density(float width, vec3 normal);
-
-/// The share of a surface's facets that is seen from a direction.
-float seen_share(float width, vec3 direction);
+/// The surface as the kernels want it, seen from a unit direction above it.
+GlossySurface glossy_surface(const Gloss& gloss, vec3 to_eye);
 
 /// Light from `to_light` that goes to `to_eye`, per irradiance: 1/sr. Zero where either is below the surface.
 vec3 reflected_share(const Gloss& gloss, vec3 to_eye, vec3 to_light);

@@ -1,9 +1,12 @@
 #include "techniques/visibility_field/map_sampling.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <span>
+
+#include "shaders/map_light.h"
 
 namespace sightlines::visibility_field {
 namespace {
@@ -45,12 +48,12 @@ double accumulate(std::span<const double> weights, std::vector<float>& to) {
     return sum;
 }
 
-/// The interval of the cumulative sums that holds the number, and where in it.
-std::size_t find_interval(std::span<const float> sums, float number, float& within) {
-    const auto above = std::ranges::upper_bound(sums.first(sums.size() - 1), number);
-    const auto index = static_cast<std::size_t>(above - sums.begin()) - 1;
-    within = std::clamp((number - sums[index]) / std::max(sums[index + 1] - sums[index], 1.0e-20f), 0.0f, 1.0f);
-    return index;
+scalar_kernel::MapDraws draws_of(const MapDistribution& distribution) {
+    return {distribution.shape,
+            {distribution.rows.data()},
+            {distribution.heights.data()},
+            {distribution.columns.data()},
+            {distribution.density.data()}};
 }
 
 }  // namespace
@@ -59,8 +62,9 @@ MapDistribution make_distribution(const EnvironmentLight& light) {
     const ImageRgb& map = light.map->radiance;
     MapDistribution made;
     made.size = {std::min(map.size.width, most.width), std::min(map.size.height, most.height)};
-    made.world_from_map = turn_about_up(light.turn_deg);
-    made.map_from_world = turn_about_up(-light.turn_deg);
+    made.shape = map_shape(made.size, light.turn_deg);
+    for (int row = 0; row <= made.size.height; ++row)
+        made.heights.push_back(static_cast<float>(std::cos(std::numbers::pi * row / made.size.height)));
     std::vector<double> weights = brightness(map, made.size);
     const auto width = static_cast<std::size_t>(made.size.width);
     double sum = 0.0;
@@ -79,28 +83,23 @@ MapDistribution make_distribution(const EnvironmentLight& light) {
     return made;
 }
 
+MapShape map_shape(ImageSize size, float turn_deg) {
+    const mat3 map_from_world = turn_about_up(-turn_deg);
+    return {size.width,
+            size.height,
+            static_cast<int>(std::bit_floor(static_cast<unsigned>(size.width))),
+            static_cast<int>(std::bit_floor(static_cast<unsigned>(size.height))),
+            map_from_world[0][0],
+            map_from_world[0][2],
+            0.0f};
+}
+
 vec3 drawn_direction(const MapDistribution& distribution, vec2 numbers) {
-    const double pi = std::numbers::pi;
-    const auto width = static_cast<std::size_t>(distribution.size.width);
-    float down = 0.0f, across = 0.0f;
-    const std::size_t row = find_interval(distribution.rows, numbers.y, down);
-    const std::size_t column =
-        find_interval(std::span(distribution.columns).subspan(row * (width + 1), width + 1), numbers.x, across);
-    // Even by solid angle within the texel: even in height and in azimuth.
-    const double upper = std::cos(pi * static_cast<double>(row) / distribution.size.height);
-    const double lower = std::cos(pi * static_cast<double>(row + 1) / distribution.size.height);
-    const double height = upper + (lower - upper) * down;
-    const double ring = std::sqrt(std::max(0.0, 1.0 - height * height));
-    const double azimuth = 2.0 * pi * (static_cast<double>(column) + across) / static_cast<double>(width) - pi;
-    return distribution.world_from_map * vec3(dvec3(ring * std::sin(azimuth), height, -ring * std::cos(azimuth)));
+    return scalar_kernel::direction_by_map(draws_of(distribution), numbers.x, numbers.y);
 }
 
 float drawn_density(const MapDistribution& distribution, vec3 direction) {
-    const vec2 place = equirectangular_pixel(distribution.size, distribution.map_from_world * direction);
-    const int column = std::clamp(static_cast<int>(place.x), 0, distribution.size.width - 1);
-    const int row = std::clamp(static_cast<int>(place.y), 0, distribution.size.height - 1);
-    return distribution.density[static_cast<std::size_t>(row) * static_cast<std::size_t>(distribution.size.width) +
-                                static_cast<std::size_t>(column)];
+    return scalar_kernel::density_by_map(draws_of(distribution), direction);
 }
 
 }  // namespace sightlines::visibility_field

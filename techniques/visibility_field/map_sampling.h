@@ -1,9 +1,9 @@
-// Directions drawn where a map of the surroundings is bright (Pharr, Jakob, Humphreys: Physically Based Rendering, 2-D
-// inversion of the cumulative distribution).
+// The tables by which directions are drawn where a map of the surroundings is bright (shaders/map_light.h).
 #pragma once
 
 #include <vector>
 
+#include "shaders/weighted_samples_data.h"
 #include "techniques/scene/environment_light.h"
 
 namespace sightlines::visibility_field {
@@ -14,9 +14,12 @@ struct MapDistribution {
     std::vector<float> rows;     ///< [height + 1], cumulative, from 0 to 1
     std::vector<float> columns;  ///< [height][width + 1], cumulative within a row, from 0 to 1
     std::vector<float> density;  ///< [height][width], per sr
-    mat3 world_from_map{1.0f};   ///< the map's turn
-    mat3 map_from_world{1.0f};
+    std::vector<float> heights;  ///< [height + 1], cosines of the rows' edges' angles from +Y
+    MapShape shape{};            ///< of the tables, turned as the map is
 };
+
+/// A map as the kernels want it.
+MapShape map_shape(ImageSize size, float turn_deg);
 
 MapDistribution make_distribution(const EnvironmentLight& light);
 

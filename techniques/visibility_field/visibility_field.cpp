@@ -349,23 +349,32 @@ Statistics statistics(const Structure& structure) {
     statistics.uncompressed_bytes = dense_bytes(shape);
     statistics.structure_bytes = built.dense ? statistics.uncompressed_bytes : field.bytes();
     statistics.build_seconds = built.build_seconds;
-    statistics.values = {
-        {"cells of the grid", static_cast<double>(shape.cells_x) * shape.cells_y * shape.cells_z, ""},
-        {"cells with masks", static_cast<double>(cells.size()), ""},
-        {"cells called occluded", 100.0 * static_cast<double>(occluded) / count, "%"},
-        {"cells called visible", 100.0 * (static_cast<double>(cells.size()) - static_cast<double>(occluded)) / count,
-         "%"},
-        {"point samples", static_cast<double>(field.points), ""},
-        {"rays cast", static_cast<double>(field.rays), ""},
-        {"placing the samples", field.place_seconds, "s"},
-        {"casting the rays", field.cast_seconds, "s"},
-        {"cells kept from what stands still", static_cast<double>(field.kept_cells), ""},
-        {"rays cast for this moment", static_cast<double>(built.fixed ? field.rays_again : field.rays), ""},
-        {"what stands still", built.fixed ? built.fixed->seconds : 0.0, "s"},
-        {"masks that are copies of others", 2.0 * static_cast<double>(cells.size()) - static_cast<double>(distinct),
-         ""},
-        {"bytes packed", static_cast<double>(field.bytes()), "B"},
-        {"bytes in the paper's layout", static_cast<double>(dense_bytes(shape)), "B"}};
+    statistics.values = {{"cells of the grid", static_cast<double>(shape.cells_x) * shape.cells_y * shape.cells_z, ""},
+                         {"cells with masks", static_cast<double>(cells.size()), ""},
+                         {"cells called occluded", 100.0 * static_cast<double>(occluded) / count, "%"},
+                         {"cells called visible",
+                          100.0 * (static_cast<double>(cells.size()) - static_cast<double>(occluded)) / count, "%"},
+                         {"point samples", static_cast<double>(field.points), ""},
+                         {"rays cast", static_cast<double>(field.rays), ""},
+                         {"placing the samples", field.place_seconds, "s"},
+                         {"casting the rays", field.cast_seconds, "s"},
+                         {"masks that are copies of others",
+                          2.0 * static_cast<double>(cells.size()) - static_cast<double>(distinct), ""},
+                         {"bytes packed", static_cast<double>(field.bytes()), "B"},
+                         {"bytes in the paper's layout", static_cast<double>(dense_bytes(shape)), "B"}};
+    if (built.fixed) {
+        statistics.values.push_back(
+            {"cells with the masks of what stands still", static_cast<double>(field.kept_cells), ""});
+        statistics.values.push_back({"rays cast for this moment", static_cast<double>(field.rays_again), ""});
+        statistics.values.push_back({"baking what stands still, once", built.fixed->seconds, "s"});
+    }
+    if (built.on_device) {
+        const auto [rays, bytes] = rays_used(*built.on_device);
+        const bool queries = rays == DeviceRays::queries;
+        statistics.values.push_back(
+            {queries ? "acceleration structure, asked by ray queries" : "ray tree on the device",
+             static_cast<double>(bytes), "B"});
+    }
     return statistics;
 }
 

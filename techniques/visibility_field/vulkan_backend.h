@@ -10,10 +10,25 @@ namespace sightlines::visibility_field {
 
 struct FieldOnDevice;  // hides Vulkan's handles; shared between threads
 
-/// Copies the field (null: none, every sample is traced) and a tree over the scene's triangles to the preferred device.
+/// What answers rays on a device. `queries`: its own ray queries, where it has them for so many triangles; the tree
+/// else.
+enum class DeviceRays { queries, tree };
+
+/// `queries`; `tree` with the environment variable SIGHTLINES_RAY_QUERIES=0.
+DeviceRays device_rays_wanted();
+
+/// Copies the field (null: none, every sample is traced) and what answers rays to the preferred device.
 /// EnvironmentError: no device, or out of memory.
 std::shared_ptr<const FieldOnDevice> give_to_vulkan(const VisibilityField* field, const EmbreeScene& embree,
-                                                    int threads, Progress& progress);
+                                                    int threads, Progress& progress,
+                                                    DeviceRays wanted = device_rays_wanted());
+
+/// What answers the field's rays, and the bytes it takes on the device.
+struct DeviceRaysUsed {
+    DeviceRays rays = DeviceRays::tree;
+    std::uint64_t bytes = 0;
+};
+DeviceRaysUsed rays_used(const FieldOnDevice& field);
 
 /// The picture of render_environment, by the same samples and masks. Answers differ where rays graze triangles, and
 /// sums by rounding. request.dense and request.order are not looked at: the answers are the same in any layout.

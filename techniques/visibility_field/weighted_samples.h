@@ -1,10 +1,10 @@
 // Samples whose weights differ: by the reflection of glossy surfaces, by a map of the surroundings, or by both (Veach
-// and Guibas 1995). Those of the paper, by the cosine, all weigh the same.
+// and Guibas 1995). Those of the paper, by the cosine, all weigh the same. By vectors: shaders/weighted_samples.h.
 #pragma once
 
-#include <span>
 #include <vector>
 
+#include "shaders/weighted_samples_data.h"
 #include "techniques/visibility_field/glossy.h"
 #include "techniques/visibility_field/render.h"
 
@@ -25,25 +25,22 @@ std::vector<PixelSample> weighted_samples(const EnvironmentRequest& request, std
 EnvironmentResult render_weighted(const VisibilityField* field, const EmbreeScene& embree,
                                   const EnvironmentRequest& request, Progress& progress);
 
-/// A pixel and the directions of its samples, not yet weighed: most are blocked, and weighing takes longest.
-struct DrawnPixel {
-    /// How many samples are drawn each way, in this order.
-    struct Ways {
-        std::uint32_t cosine = 0, mirrored = 0, map = 0;
-    };
-    vec3 normal{0.0f};              ///< geometric
-    mat3 world_from_surface{1.0f};  ///< its z the shading normal
-    vec3 to_eye{0.0f};              ///< about it
-    Gloss gloss;
-    vec2 shift{0.0f};  ///< of the numbers that samples are drawn by
-    Ways ways;
-    std::vector<vec3> directions;  ///< as PixelSample's
+/// A pixel's surface, and how many samples are drawn each way, in this order.
+struct WeightedPixel {
+    SampledSurface surface{};
+    std::uint32_t cosine = 0, mirrored = 0, map = 0;
 };
-DrawnPixel draw_samples(const EnvironmentRequest& request, std::size_t pixel);
+WeightedPixel weighted_pixel(const EnvironmentRequest& request, std::size_t pixel);
 
-/// Writes what a pixel's samples come to. `blocked`: sample k is in bit k % 32 of word k / 32; samples below their
-/// surface are not looked at.
-void resolve_weighted(const EnvironmentRequest& request, std::size_t pixel, const DrawnPixel& drawn,
-                      std::span<const std::uint32_t> blocked, EnvironmentResult& result);
+/// What is the same for all pixels of a picture.
+struct WeightedTables {
+    std::vector<float> ordinal;  ///< k + 1/2
+    std::vector<float> inverse;  ///< the radical inverse of k; as many as samples, and a vector more
+    HarmonicLight harmonics{};
+    MapShape map{};                          ///< of the map that sends light
+    const float* texels = nullptr;           ///< its own; null: the harmonics send light
+    const MapDistribution* draws = nullptr;  ///< null where no sample is drawn by the map
+};
+WeightedTables weighted_tables(const EnvironmentRequest& request);
 
 }  // namespace sightlines::visibility_field

@@ -1,5 +1,9 @@
-// The body of ray_tree*.comp.
+// The body of ray_tree*.comp and ray_queries.comp.
 #include "shaders/ray_tree.h"
+
+#ifdef RAYS_BY_QUERY
+#include "shaders/ray_query.glsl"
+#endif
 
 layout(local_size_x = 64) in;
 
@@ -16,10 +20,21 @@ layout(push_constant, scalar) uniform Push {
     uint count;
     Rays rays;
     Answers answers;
+#ifdef RAYS_BY_QUERY
+    uvec2 ray_scene;
+#endif
 };
+
+bool is_blocked(Ray ray) {
+#ifdef RAYS_BY_QUERY
+    return is_blocked_by_query(tree, ray_scene, ray.origin, ray.direction);
+#else
+    return is_blocked_by_tree(tree, ray.origin, ray.direction);
+#endif
+}
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
-    answers.v[i] = is_blocked_by_tree(tree, rays.v[i].origin, rays.v[i].direction) ? 1u : 0u;
+    answers.v[i] = is_blocked(rays.v[i]) ? 1u : 0u;
 }

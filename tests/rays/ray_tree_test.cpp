@@ -2,31 +2,24 @@
 // its scalar compilation.
 #include "techniques/rays/ray_tree.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <span>
 
 #include <gtest/gtest.h>
 
 #include "shaders/ray_tree.h"
-#include "techniques/base/files.h"
-#include "techniques/compute/dispatch.h"
 #include "techniques/rays/open_rays.h"
 #include "techniques/scene/builtin_scenes.h"
+#include "tests/rays/device_rays.h"
 #include "tests/rays/recorded_ray_tree.h"
-#include "tests/rays/test_scenes.h"
 
 namespace sightlines {
 namespace {
 
-#define NEEDS_VULKAN                                                                       \
-    if (compute::list_devices().empty() || !compute::list_devices().front().lacks.empty()) \
-    GTEST_SKIP() << "no usable Vulkan device"
-
-struct TestRay {
-    vec3 origin, direction;
-};
+using test::buffer_of;
+using test::random_rays;
+using test::scene_with_holes;
+using test::test_shader;
+using test::TestRay;
 
 RayTree tree_of(const EmbreeScene& embree) {
     Progress progress;
@@ -37,38 +30,6 @@ bool is_blocked_in(const RayTree& tree, const TestRay& ray) {
     return scalar_kernel::is_blocked_by_tree(
         {{tree.nodes.data()}, {tree.triangles.data()}, {tree.cutouts.data()}, tree.node_count()}, ray.origin,
         ray.direction);
-}
-
-/// From anywhere in the box to everywhere.
-std::vector<TestRay> random_rays(const Box3& box, std::uint32_t count) {
-    std::vector<TestRay> rays;
-    for (std::uint32_t k = 0; k < count; ++k)
-        rays.push_back(
-            {test::random_point(box, k, 31), sphere_direction(random_unit(32, k, 0), random_unit(32, k, 1))});
-    return rays;
-}
-
-/// Half of the triangles are a texture of vertical bars, wrapped every way in turn.
-Scene scene_with_holes(Wrap wrap) {
-    Material solid, barred;
-    barred.alpha_mode = AlphaMode::mask;
-    barred.base_color_texture = TextureLookup{.texture = 0, .scale = vec2(2.7f, 1.9f)};
-    Scene scene = test::scene_with_material(solid);
-    scene.materials.push_back(barred);
-    Texture texture;
-    texture.wrap_u = texture.wrap_v = wrap;
-    texture.texels = Image<glm::u8vec4>({7, 5});
-    for (int y = 0; y < 5; ++y)
-        for (int x = 0; x < 7; ++x)
-            texture.texels.at(x, y) = glm::u8vec4(255, 255, 255, x == 2 || x == 5 || y == 4 ? 250 : 10 * x);
-    scene.textures.push_back(texture);
-    for (std::uint32_t k = 0; k < 40; ++k) {
-        const vec3 corner = test::random_point({vec3(-1.0f), vec3(1.0f)}, k, 51);
-        const vec3 u = sphere_direction(random_unit(52, k, 0), random_unit(52, k, 1));
-        const vec3 v = glm::cross(u, vec3(0.3f, 0.8f, 0.5f));
-        test::add_quad(scene, corner, 0.6f * u, 0.7f * v, k % 4 == 0 ? 0 : 1);
-    }
-    return scene;
 }
 
 TEST(RayTree, AnswersRaysAtABoxOfWhichTheAnswersAreKnown) {
@@ -209,24 +170,13 @@ struct ShaderJob {
     VkDeviceAddress rays, answers;
 };
 
-template <class T>
-compute::Buffer buffer_of(const std::shared_ptr<const compute::Device>& device, const std::vector<T>& values) {
-    const std::size_t bytes = std::max<std::size_t>(values.size() * sizeof(T), 16);
-    compute::Buffer buffer = compute::make_buffer(device, bytes, compute::MemoryPlace::host);
-    std::ranges::copy(std::as_bytes(std::span(values)), buffer.mapped.begin());
-    return buffer;
-}
-
 std::vector<std::uint32_t> answers_of_device(const RayTree& tree, const std::vector<TestRay>& rays, bool as_texels) {
     const auto device = compute::open_device();
     const compute::Buffer nodes = buffer_of(device, tree.nodes), triangles = buffer_of(device, tree.triangles),
                           cutouts = buffer_of(device, tree.cutouts), asked = buffer_of(device, rays),
                           answers = buffer_of(device, std::vector<std::uint32_t>(rays.size(), 7));
-    const std::vector<std::uint8_t> file = read_file(
-        std::string(SIGHTLINES_TEST_SHADERS) + (as_texels ? "/ray_tree_texels.spv" : "/ray_tree.spv"), 1u << 20u);
-    std::vector<std::uint32_t> words(file.size() / 4);
-    std::memcpy(words.data(), file.data(), file.size());
-    const compute::Pipeline pipeline = compute::make_pipeline(device, words, sizeof(ShaderJob), {}, as_texels ? 3 : 0);
+    const compute::Pipeline pipeline = compute::make_pipeline(
+        device, test_shader(as_texels ? "ray_tree_texels" : "ray_tree"), sizeof(ShaderJob), {}, as_texels ? 3 : 0);
     std::optional<compute::BoundTexels> texels;
     const std::array<compute::TexelSource, 3> sources{{{&nodes, VK_FORMAT_R32G32B32A32_UINT},
                                                        {&triangles, VK_FORMAT_R32G32B32A32_UINT},

@@ -1,10 +1,13 @@
 // Samples with weights of their own: glossy surfaces and maps with all their contrasts.
 #include "techniques/visibility_field/weighted_samples.h"
 
+#include <bit>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "shaders/weighted_samples.h"
+#include "techniques/base/hammersley.h"
 #include "techniques/visibility_field/map_sampling.h"
 #include "tests/visibility_field/scenes.h"
 
@@ -163,6 +166,58 @@ TEST(WeightedSamples, DoNotDependOnThreadsOrTiles) {
     EXPECT_EQ(first.irradiance, second.irradiance);
     EXPECT_EQ(first.verdicts.words, second.verdicts.words);
     EXPECT_EQ(first.counts, second.counts);
+}
+
+/// Samples as the scalar compilation draws and weighs them.
+std::vector<PixelSample> scalar_samples(const EnvironmentRequest& request, std::size_t index) {
+    namespace kernel = scalar_kernel;
+    const WeightedTables tables = weighted_tables(request);
+    const WeightedPixel pixel = weighted_pixel(request, index);
+    const kernel::Surroundings light{tables.texels != nullptr, tables.harmonics, {tables.map, {tables.texels}}};
+    kernel::MapDraws draws{};
+    if (const MapDistribution* from = tables.draws)
+        draws = {
+            from->shape, {from->rows.data()}, {from->heights.data()}, {from->columns.data()}, {from->density.data()}};
+    std::vector<PixelSample> samples;
+    const auto draw = [&](std::uint32_t way, std::uint32_t count) {
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const float u = (static_cast<float>(k) + 0.5f) * (1.0f / static_cast<float>(count));
+            const float v = radical_inverse(k) + 0.5f / static_cast<float>(std::bit_ceil(count));
+            const kernel::DrawnSample drawn = kernel::draw_sample(pixel.surface, draws, way, u, v);
+            samples.push_back({-pixel.surface.normal, vec3(0.0f)});
+            if (drawn.above)
+                samples.back() = {drawn.direction, kernel::weighed(pixel.surface, light, draws, drawn.direction)};
+        }
+    };
+    draw(kernel::drawn_by_cosine, pixel.cosine);
+    draw(kernel::drawn_by_facets, pixel.mirrored);
+    draw(kernel::drawn_by_map, pixel.map);
+    return samples;
+}
+
+TEST(WeightedSamples, AreTheSameToTheLastBitByVectorsAndOneByOne) {
+    Prepared prepared(45);
+    for (const bool by_map : {false, true})
+        for (const bool glossy : {false, true})
+            for (const Sampling sampling : {Sampling::cosine, Sampling::brdf, Sampling::map, Sampling::both}) {
+                prepared.request.map = by_map ? &prepared.light : nullptr;
+                prepared.request.glossy = glossy;
+                prepared.request.sampling = sampling;
+                int compared = 0, differing = 0;
+                for (std::size_t p = 0; p < prepared.surfaces.size.pixels(); p += 7) {
+                    if (prepared.surfaces.triangle[p] == no_triangle) continue;
+                    const std::vector<PixelSample> wide = weighted_samples(prepared.request, p);
+                    const std::vector<PixelSample> scalar = scalar_samples(prepared.request, p);
+                    ASSERT_EQ(wide.size(), scalar.size());
+                    for (std::size_t k = 0; k < wide.size(); ++k) {
+                        differing += wide[k].direction != scalar[k].direction || wide[k].adds != scalar[k].adds;
+                        ASSERT_NEAR(glm::length(wide[k].direction), 1.0f, 1e-5f);
+                        ++compared;
+                    }
+                }
+                EXPECT_EQ(differing, 0) << by_map << glossy << int(sampling);
+                EXPECT_GT(compared, 3000);
+            }
 }
 
 TEST(WeightedSamples, AMirrorShowsTheSky) {
