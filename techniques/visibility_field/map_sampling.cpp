@@ -14,22 +14,36 @@ namespace {
 constexpr float even_share = 0.01f;
 constexpr ImageSize most{1024, 512};
 
+/// The sum of a row of luminances over the texels under each column of the distribution, and one to either side.
+void add_row(std::span<const vec3> row, int columns, std::vector<double>& luminance, std::vector<double>& to) {
+    const int width = static_cast<int>(row.size());
+    // The ends meet.
+    for (int x = -1; x <= width; ++x)
+        luminance[static_cast<std::size_t>(x + 1)] =
+            glm::dot(row[static_cast<std::size_t>((x + width) % width)], vec3(0.2126f, 0.7152f, 0.0722f));
+    for (int x = 0; x < columns; ++x) {
+        const int left = x * width / columns - 1, right = (x + 1) * width / columns;
+        for (int column = left; column <= right; ++column)
+            to[static_cast<std::size_t>(x)] += luminance[static_cast<std::size_t>(column + 1)];
+    }
+}
+
 /// The mean luminance of the map's texels under each texel of the distribution, and of those around it, between which
 /// the map is interpolated.
 std::vector<double> brightness(const ImageRgb& map, ImageSize size) {
-    std::vector<double> all(size.pixels());
+    const auto width = static_cast<std::size_t>(map.size.width), columns = static_cast<std::size_t>(size.width);
+    std::vector<double> all, sums(columns), luminance(width + 2);
+    all.reserve(size.pixels());
     for (int y = 0; y < size.height; ++y) {
+        const int top = y * map.size.height / size.height - 1, bottom = (y + 1) * map.size.height / size.height;
+        std::ranges::fill(sums, 0.0);
+        for (int row = top; row <= bottom; ++row) {
+            const auto inside = static_cast<std::size_t>(std::clamp(row, 0, map.size.height - 1));
+            add_row(std::span(map.pixels).subspan(inside * width, width), size.width, luminance, sums);
+        }
         for (int x = 0; x < size.width; ++x) {
-            const int top = y * map.size.height / size.height - 1, left = x * map.size.width / size.width - 1;
-            const int bottom = (y + 1) * map.size.height / size.height, right = (x + 1) * map.size.width / size.width;
-            double sum = 0.0;
-            for (int row = top; row <= bottom; ++row)
-                for (int column = left; column <= right; ++column)
-                    sum += glm::dot(
-                        map.at((column + map.size.width) % map.size.width, std::clamp(row, 0, map.size.height - 1)),
-                        vec3(0.2126f, 0.7152f, 0.0722f));
-            all[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)] =
-                sum / ((bottom - top + 1) * (right - left + 1));
+            const int across = (x + 1) * map.size.width / size.width - x * map.size.width / size.width + 2;
+            all.push_back(sums[static_cast<std::size_t>(x)] / (across * (bottom - top + 1)));
         }
     }
     return all;
@@ -63,19 +77,20 @@ MapDistribution make_distribution(const EnvironmentLight& light) {
     MapDistribution made;
     made.size = {std::min(map.size.width, most.width), std::min(map.size.height, most.height)};
     made.shape = map_shape(made.size, light.turn_deg);
+    made.density.reserve(made.size.pixels());
+    made.columns.reserve(made.size.pixels() + static_cast<std::size_t>(made.size.height));
     for (int row = 0; row <= made.size.height; ++row)
         made.heights.push_back(static_cast<float>(std::cos(std::numbers::pi * row / made.size.height)));
     std::vector<double> weights = brightness(map, made.size);
     const auto width = static_cast<std::size_t>(made.size.width);
+    std::vector<double> rows, solid_angle;
+    for (int row = 0; row < made.size.height; ++row) solid_angle.push_back(texel_solid_angle(made.size, row));
     double sum = 0.0;
-    for (std::size_t k = 0; k < weights.size(); ++k)
-        sum += weights[k] *= texel_solid_angle(made.size, static_cast<int>(k / width));
-    std::vector<double> rows;
+    for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] *= solid_angle[k / width];
     for (std::size_t k = 0; k < weights.size(); ++k) {
-        const double solid_angle = texel_solid_angle(made.size, static_cast<int>(k / width));
-        const double even = solid_angle / (4.0 * std::numbers::pi);
+        const double even = solid_angle[k / width] / (4.0 * std::numbers::pi);
         weights[k] = sum > 0.0 ? (1.0 - even_share) * weights[k] / sum + even_share * even : even;
-        made.density.push_back(static_cast<float>(weights[k] / solid_angle));
+        made.density.push_back(static_cast<float>(weights[k] / solid_angle[k / width]));
     }
     for (std::size_t row = 0; row < static_cast<std::size_t>(made.size.height); ++row)
         rows.push_back(accumulate(std::span(weights).subspan(row * width, width), made.columns));

@@ -216,10 +216,23 @@ void take_over(const EnvironmentResult& from, const SurfaceBuffer& surfaces, Pix
     }
 }
 
+/// The irradiance of glossy surfaces is what they reflect, texture and all: without about its colour it is as smooth as
+/// that of others.
+void set_colour(const EnvironmentRequest& asked, bool with, ImageRgb& irradiance) {
+    if (!asked.glossy) return;
+    for (std::size_t p = 0; p < irradiance.pixels.size(); ++p) {
+        if (asked.surfaces->triangle[p] == no_triangle) continue;
+        const vec3 colour = reflecting_colour(asked, p);
+        irradiance.pixels[p] = with ? irradiance.pixels[p] * colour : irradiance.pixels[p] / colour;
+    }
+}
+
 void denoise_picture(const EnvironmentRequest& asked, int passes, EnvironmentResult& made) {
     if (passes == 0) return;
     const auto start = std::chrono::steady_clock::now();
+    set_colour(asked, false, made.irradiance);
     denoise(*asked.surfaces, passes, asked.threads, made.irradiance);
+    set_colour(asked, true, made.irradiance);
     for (std::size_t p = 0; p < made.radiance.pixels.size(); ++p)
         if (asked.surfaces->triangle[p] != no_triangle)
             made.radiance.pixels[p] = reflected_radiance(asked, p, made.irradiance.pixels[p]);

@@ -105,6 +105,11 @@ WeightedPixel weighted_pixel(const EnvironmentRequest& request, std::size_t inde
     return pixel;
 }
 
+vec3 reflecting_colour(const EnvironmentRequest& request, std::size_t pixel) {
+    const Gloss gloss = gloss_of(request, pixel);
+    return gloss.diffuse + gloss.head_on + 0.01f;
+}
+
 WeightedTables weighted_tables(const EnvironmentRequest& request) {
     WeightedTables tables;
     const auto samples = static_cast<std::uint32_t>(request.pattern->samples);

@@ -32,6 +32,9 @@ struct WeightedPixel {
 };
 WeightedPixel weighted_pixel(const EnvironmentRequest& request, std::size_t pixel);
 
+/// About what share of even light a glossy pixel reflects; never zero.
+vec3 reflecting_colour(const EnvironmentRequest& request, std::size_t pixel);
+
 /// What is the same for all pixels of a picture.
 struct WeightedTables {
     std::vector<float> ordinal;  ///< k + 1/2

@@ -209,6 +209,23 @@ TEST(FieldTechnique, NamesCellMasksDecisionAndWhatTheSampleAddsInTheTrace) {
         EXPECT_NE(all.find(name), std::string::npos) << name << " in " << all;
 }
 
+TEST(FieldTechnique, DenoisesGlossySurfacesWithoutTheirTexture) {
+    const ParameterValues glossy{{"surface", 1.0}, {"sampling", 1.0}, {"denoise", 3.0}};
+    Asked even(glossy), striped(glossy);
+    for (vec3& albedo : even.surfaces.albedo) albedo = vec3(0.3f);
+    for (std::size_t p = 0; p < size.pixels(); ++p) striped.surfaces.albedo[p] = vec3(p % 2 == 0 ? 0.3f : 0.33f);
+    const RenderResult without = even.picture(), with = striped.picture();
+    double sums[2][2] = {};
+    for (std::size_t p = 0; p < size.pixels(); ++p) {
+        if (!even.shows_surface(p)) continue;
+        sums[0][p % 2] += without.radiance.pixels[p].y;
+        sums[1][p % 2] += with.radiance.pixels[p].y;
+    }
+    // The filter, which takes so little for noise, would make both about 1.04.
+    EXPECT_LT(sums[1][0] / sums[0][0], 1.02);
+    EXPECT_GT(sums[1][1] / sums[0][1], 1.06);
+}
+
 TEST(FieldTechnique, AnswersAlikeInBothLayouts) {
     Asked packed, dense({{"layout", 1.0}});
     EXPECT_EQ(packed.picture().verdicts.words, dense.picture().verdicts.words);
