@@ -20,10 +20,10 @@ namespace {
 constexpr std::int64_t cells_per_task = 16;
 constexpr int most_rays = 4096;
 
-CellMasks cast_all(const EmbreeScene& embree, const CellPoints& points, const FieldShape& shape,
-                   const BakeOptions& options, Progress& progress) {
+FinishedMasks cast_all(const EmbreeScene& embree, const CellPoints& points, const FieldShape& shape,
+                       const BakeOptions& options, Progress& progress) {
     const RaySet set = make_ray_set(options.rays);
-    CellMasks masks = make_cell_masks(points.cells.size(), shape);
+    FinishedMasks masks = make_finished_masks(points.cells.size(), shape);
     progress.begin("casting rays from point samples", static_cast<std::int64_t>(points.points.size()));
     const auto count = static_cast<std::int64_t>(points.cells.size());
     parallel_for((count + cells_per_task - 1) / cells_per_task, options.threads, [&](std::int64_t task) {

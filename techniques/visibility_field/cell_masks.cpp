@@ -29,12 +29,12 @@ int casting_steps(int mask_size) { return largest_mask / mask_size; }
 
 int casting_size(const BakeOptions& options) { return options.mask_size * casting_steps(options.mask_size); }
 
-CellMasks make_cell_masks(std::size_t cells, const FieldShape& shape) {
+FinishedMasks make_finished_masks(std::size_t cells, const FieldShape& shape) {
     return {std::vector<std::uint32_t>(2 * cells * static_cast<std::size_t>(shape.words_per_mask)),
             std::vector<std::uint8_t>(cells)};
 }
 
-void finish_cell(const MaskPair& parts, const BakeOptions& options, std::size_t cell, CellMasks& masks) {
+void finish_cell(const MaskPair& parts, const BakeOptions& options, std::size_t cell, FinishedMasks& masks) {
     const std::size_t words = words_per_mask(options.mask_size);
     const MaskRows visible = finished(parts.visible, options), occluded = finished(parts.occluded, options);
     masks.labels[cell] = occlusion_label(visible, occluded, options);
@@ -42,7 +42,7 @@ void finish_cell(const MaskPair& parts, const BakeOptions& options, std::size_t 
     pack(occluded, options.mask_size, std::span(masks.words).subspan((2 * cell + 1) * words, words));
 }
 
-void add_cell(const MaskPair& parts, const BakeOptions& options, CellMasks& masks) {
+void add_cell(const MaskPair& parts, const BakeOptions& options, FinishedMasks& masks) {
     masks.labels.push_back(0);
     masks.words.resize(2 * masks.labels.size() * words_per_mask(options.mask_size));
     finish_cell(parts, options, masks.labels.size() - 1, masks);
@@ -64,7 +64,7 @@ void set_cells(std::span<const std::uint32_t> cells, std::span<const std::uint8_
     field.cells = static_cast<std::uint32_t>(cells.size());
 }
 
-void assemble(const CellPoints& points, const CellMasks& masks, VisibilityField& field) {
+void assemble(const CellPoints& points, const FinishedMasks& masks, VisibilityField& field) {
     set_cells(points.cells, masks.labels, field);
     field.points = points.points.size();
     // Half of Sponza's masks are copies: cells without sky, for one.

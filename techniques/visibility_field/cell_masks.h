@@ -31,18 +31,18 @@ struct MaskPair {
 };
 
 /// The finished masks of many cells.
-struct CellMasks {
+struct FinishedMasks {
     std::vector<std::uint32_t> words;  ///< [cells][visible, occluded][words_per_mask]
     std::vector<std::uint8_t> labels;  ///< [cells]
 };
 
-CellMasks make_cell_masks(std::size_t cells, const FieldShape& shape);
+FinishedMasks make_finished_masks(std::size_t cells, const FieldShape& shape);
 
 /// Dilates and reduces a cell's texels, finds its label and keeps all that as the masks of cell `cell`.
-void finish_cell(const MaskPair& parts, const BakeOptions& options, std::size_t cell, CellMasks& masks);
+void finish_cell(const MaskPair& parts, const BakeOptions& options, std::size_t cell, FinishedMasks& masks);
 
 /// The same as those of one more cell.
-void add_cell(const MaskPair& parts, const BakeOptions& options, CellMasks& masks);
+void add_cell(const MaskPair& parts, const BakeOptions& options, FinishedMasks& masks);
 
 /// The number of each mask by its bytes, which lie elsewhere.
 using MaskNumbers = std::unordered_map<std::string_view, std::uint32_t>;
@@ -53,6 +53,6 @@ std::string_view mask_bytes(std::span<const std::uint32_t> mask);
 void set_cells(std::span<const std::uint32_t> cells, std::span<const std::uint8_t> labels, VisibilityField& field);
 
 /// The same, and stores each mask once, in the order in which they come. The field's shape is known.
-void assemble(const CellPoints& points, const CellMasks& masks, VisibilityField& field);
+void assemble(const CellPoints& points, const FinishedMasks& masks, VisibilityField& field);
 
 }  // namespace sightlines::visibility_field

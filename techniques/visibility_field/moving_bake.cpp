@@ -78,7 +78,7 @@ struct MomentBake {
 /// What the cells of a task came to: those whose masks are not what stands still has.
 struct BakedCells {
     std::vector<std::size_t> cells;
-    CellMasks masks;
+    FinishedMasks masks;
     std::uint64_t rays = 0;  ///< that were cast
 };
 
@@ -238,7 +238,7 @@ std::shared_ptr<const FixedField> bake_fixed(const Scene& scene, const BakeOptio
     const RaySet set = make_ray_set(options.rays);
     const std::size_t words = words_of_rays(options.rays);
     fixed->blocked.resize(points.points.size() * words);
-    CellMasks masks = make_cell_masks(points.cells.size(), shape);
+    FinishedMasks masks = make_finished_masks(points.cells.size(), shape);
     progress.begin("casting rays from what stands still", static_cast<std::int64_t>(points.points.size()));
     for_cells(points.cells.size(), set, options.threads, [&](CastingRoom& room, std::size_t cell) {
         MaskPair parts;

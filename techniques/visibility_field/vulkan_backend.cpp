@@ -4,8 +4,8 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <optional>
+#include <string_view>
 
 #include "shaders/spirv.h"
 #include "shaders/visibility_field_lighting_data.h"
@@ -310,9 +310,11 @@ std::uint32_t give_rays(FieldOnDevice& field, const EmbreeScene& embree, int thr
 
 }  // namespace
 
-DeviceRays device_rays_wanted() {
+DeviceRays device_rays_wanted(compute::DeviceKind kind) {
     const char* asked = std::getenv("SIGHTLINES_RAY_QUERIES");
-    return asked != nullptr && std::strcmp(asked, "0") == 0 ? DeviceRays::tree : DeviceRays::queries;
+    const std::string_view said = asked != nullptr ? asked : "";
+    const bool queries = said == "1" || (said != "0" && kind != compute::DeviceKind::cpu);
+    return queries ? DeviceRays::queries : DeviceRays::tree;
 }
 
 DeviceRaysUsed rays_used(const FieldOnDevice& field) {
@@ -322,17 +324,17 @@ DeviceRaysUsed rays_used(const FieldOnDevice& field) {
 }
 
 std::shared_ptr<const FieldOnDevice> give_to_vulkan(const VisibilityField* field, const EmbreeScene& embree,
-                                                    int threads, Progress& progress, DeviceRays wanted) {
+                                                    int threads, Progress& progress, std::optional<DeviceRays> wanted) {
     auto made = std::make_shared<FieldOnDevice>();
     made->device = compute::open_device();
-    const std::uint32_t nodes = give_rays(*made, embree, threads, wanted, progress);
+    const std::uint32_t nodes =
+        give_rays(*made, embree, threads, wanted.value_or(device_rays_wanted(made->device->info.kind)), progress);
     made->has_field = field != nullptr;
     const VisibilityField nothing;
     const VisibilityField& given = field != nullptr ? *field : nothing;
     made->bricks = on_device(made->device, given.bricks, progress);
     made->mask_numbers = on_device(made->device, given.mask_numbers, progress);
     made->masks = on_device(made->device, given.masks, progress);
-    const float surface_offset_m = lifted_off(embree, vec3(0.0f), vec3(1.0f, 0.0f, 0.0f)).x;
     const FieldTables tables{given.shape,
                              made->bricks.address,
                              made->mask_numbers.address,
@@ -342,7 +344,7 @@ std::shared_ptr<const FieldOnDevice> give_to_vulkan(const VisibilityField* field
                              made->cutouts.address,
                              made->ray_scene ? made->ray_scene->address() : 0,
                              nodes,
-                             surface_offset_m};
+                             lift_m(embree)};
     made->tables = on_device(made->device, std::vector<FieldTables>{tables}, progress);
     made->pipeline = make_pipeline(*made, 0);
     return made;

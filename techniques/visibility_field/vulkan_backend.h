@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "techniques/compute/device.h"
 #include "techniques/rays/ray_tree.h"
 #include "techniques/visibility_field/render.h"
 
@@ -14,14 +16,15 @@ struct FieldOnDevice;  // hides Vulkan's handles; shared between threads
 /// else.
 enum class DeviceRays { queries, tree };
 
-/// `queries`; `tree` with the environment variable SIGHTLINES_RAY_QUERIES=0.
-DeviceRays device_rays_wanted();
+/// By the environment variable SIGHTLINES_RAY_QUERIES: `queries` where it is 1, `tree` where it is 0. Unless it says,
+/// `queries`, but `tree` on a software device, whose queries are the slower code of the two.
+DeviceRays device_rays_wanted(compute::DeviceKind kind);
 
-/// Copies the field (null: none, every sample is traced) and what answers rays to the preferred device.
-/// EnvironmentError: no device, or out of memory.
+/// Copies the field (null: none, every sample is traced) and what answers rays to the preferred device. `wanted`:
+/// nothing as device_rays_wanted says. EnvironmentError: no device, or out of memory.
 std::shared_ptr<const FieldOnDevice> give_to_vulkan(const VisibilityField* field, const EmbreeScene& embree,
                                                     int threads, Progress& progress,
-                                                    DeviceRays wanted = device_rays_wanted());
+                                                    std::optional<DeviceRays> wanted = {});
 
 /// What answers the field's rays, and the bytes it takes on the device.
 struct DeviceRaysUsed {

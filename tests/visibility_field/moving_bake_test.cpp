@@ -44,8 +44,8 @@ VisibilityField moment_of(const Scene& scene, const FixedField& fixed, const Bak
 }
 
 /// The masks of a cell's samples, all cast at the whole scene.
-CellMasks cast_plainly(const CellPoints& samples, const EmbreeScene& embree, const BakeOptions& options) {
-    CellMasks masks;
+FinishedMasks cast_plainly(const CellPoints& samples, const EmbreeScene& embree, const BakeOptions& options) {
+    FinishedMasks masks;
     const RaySet set = make_ray_set(options.rays);
     CastingRoom room(set);
     MaskPair parts;
@@ -72,7 +72,7 @@ TEST_P(MovingBake, GivesTheMasksOfCastingAllSamplesAtTheWholeScene) {
         for (const OccupiedCell& cell : occupied_cells(field)) {
             const CellPoints own = samples_in(field.shape, cell.place, points, &fixed->points);
             samples += own.points.size();
-            const CellMasks expected = cast_plainly(own, *embree, options);
+            const FinishedMasks expected = cast_plainly(own, *embree, options);
             const auto words = std::span(expected.words);
             other += !std::ranges::equal(mask_words(field, cell.index, 0), words.first(11)) ||
                      !std::ranges::equal(mask_words(field, cell.index, 1), words.last(11)) ||

@@ -196,13 +196,21 @@ TEST(FieldOnVulkan, AgreesWithTheCpuByRayQueries) {
     expect_alike(all, all.on_cpu(false), all.on_vulkan());
 }
 
-TEST(FieldOnVulkan, TakesRayQueriesUnlessTheTreeIsAskedForAndSaysSo) {
-    NEEDS_RAY_QUERIES;
+TEST(FieldOnVulkan, WantsRayQueriesOfHardwareAndWhatItIsTold) {
+    using compute::DeviceKind;
+    EXPECT_EQ(device_rays_wanted(DeviceKind::discrete_gpu), DeviceRays::queries);
+    EXPECT_EQ(device_rays_wanted(DeviceKind::cpu), DeviceRays::tree);
     setenv("SIGHTLINES_RAY_QUERIES", "0", 1);
-    const DeviceRays refused = device_rays_wanted();
+    const DeviceRays refused = device_rays_wanted(DeviceKind::discrete_gpu);
+    setenv("SIGHTLINES_RAY_QUERIES", "1", 1);
+    const DeviceRays asked = device_rays_wanted(DeviceKind::cpu);
     unsetenv("SIGHTLINES_RAY_QUERIES");
     EXPECT_EQ(refused, DeviceRays::tree);
-    EXPECT_EQ(device_rays_wanted(), DeviceRays::queries);
+    EXPECT_EQ(asked, DeviceRays::queries);
+}
+
+TEST(FieldOnVulkan, SaysWhetherRayQueriesAnswered) {
+    NEEDS_RAY_QUERIES;
     Case by_tree, by_queries(40, true, DeviceRays::queries);
     EXPECT_NE(by_tree.on_vulkan().device.find("ray tree"), std::string::npos);
     EXPECT_NE(by_queries.on_vulkan().device.find("ray queries"), std::string::npos);
