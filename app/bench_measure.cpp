@@ -43,6 +43,20 @@ MeanErrors errors_of(BenchRun& run, const Session& asked, Results& results, Prog
     return {errors->value.visibility_percent, errors->value.shadow_percent};
 }
 
+std::uint32_t light_sets(std::uint32_t lights, std::uint32_t enough) {
+    return lights == 0 ? 1u : std::max(1u, (enough + lights - 1) / lights);
+}
+
+MeanErrors mean_errors(BenchRun& run, Session session, std::uint32_t sets, Results& results, Progress& progress) {
+    MeanErrors mean;
+    for (std::uint32_t set = 0; set < sets; ++set, ++session.seed) {
+        const MeanErrors errors = errors_of(run, session, results, progress);
+        mean.visibility += errors.visibility / sets;
+        mean.shadow += errors.shadow / sets;
+    }
+    return mean;
+}
+
 std::vector<double> median_seconds(const BenchRun& run, const std::vector<std::function<double()>>& asks,
                                    Progress& progress) {
     std::vector<std::vector<double>> seconds(asks.size());

@@ -53,6 +53,13 @@ Session session_of(const BenchRun& run, std::string_view scene, const Variant& v
 /// Against Embree; each session is asked once in a run.
 MeanErrors errors_of(BenchRun& run, const Session& session, Results& results, Progress& progress);
 
+/// How many sets of lights, each by another seed, together have at least `enough` lights; 1 where one has.
+std::uint32_t light_sets(std::uint32_t lights, std::uint32_t enough);
+
+/// The mean of the errors with `sets` sets of lights, by the session's seed and those that follow it: one set of a few
+/// lights is too small a sample of the places where lights may be.
+MeanErrors mean_errors(BenchRun& run, Session session, std::uint32_t sets, Results& results, Progress& progress);
+
 /// Seconds of the medians, one for each of `asks`: every repetition asks each of them once, in turn, after one round
 /// that does not count.
 std::vector<double> median_seconds(const BenchRun& run, const std::vector<std::function<double()>>& asks,

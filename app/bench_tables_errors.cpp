@@ -64,13 +64,20 @@ void errors_by_scene(MeasuredTable& table, BenchRun& run, Results& results, Prog
 void errors_by_lights(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress) {
     const std::vector<std::uint32_t> counts = run.quick ? std::vector<std::uint32_t>{64, 128, 512}
                                                         : std::vector<std::uint32_t>{64, 512, 1024, 2048, 4096, 10000};
+    const std::uint32_t enough_lights = run.quick ? 512 : 1024;
     for (const std::string& scene : scenes_for(table, run, std::span(paper_scenes).first(2)))
         for (const std::uint32_t lights : counts) {
             say(run, table, scene + ", " + count_text(lights) + " lights");
             const Session session = session_of(run, scene, rows_for(scene), lights);
-            add_errors(table, scene, errors_of(run, session, results, progress), lights,
-                       count_text(lights) + " lights");
+            add_errors(table, scene, mean_errors(run, session, light_sets(lights, enough_lights), results, progress),
+                       lights, count_text(lights) + " lights");
         }
+    std::string sets;
+    for (const std::uint32_t lights : counts)
+        if (const std::uint32_t count = light_sets(lights, enough_lights); count > 1)
+            sets += (sets.empty() ? "" : ", ") + std::to_string(count) + " of " + count_text(lights);
+    table.notes.push_back("Of few lights the mean over several random sets, by as many seeds from the session's on: " +
+                          sets + " lights.");
 }
 
 void errors_by_resolution(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress) {

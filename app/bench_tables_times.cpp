@@ -107,18 +107,48 @@ int matching_shadow_maps(std::string_view scene, double limit_percent, Measuring
 }
 
 /// What a light costs in `row`, as a multiple of what it costs in `base`.
-MeasuredRow time_per_light(const MeasuredRow& row, const MeasuredRow& base) {
+MeasuredRow time_per_light(const MeasuredRow& row, const MeasuredRow& base, std::string_view quantity) {
     const auto relative = [&](const std::optional<double>& time, const std::optional<double>& base_time) {
         return time && base_time ? std::optional(*time / row.at / (*base_time / base.at)) : std::nullopt;
     };
     MeasuredRow made = row;
-    made.quantity = quantity::time_per_light;
+    made.quantity = quantity;
     made.unit = "×";
     made.digits = 2;
     made.in_chart = false;
     made.ours = relative(row.ours, base.ours);
     made.paper = relative(row.paper, base.paper);
     return made;
+}
+
+/// Times of a picture by the number of lights.
+struct TimesByLights {
+    std::vector<double> whole, rebuild, asking;  ///< seconds; the latter two where the scene deforms, whole their sum
+};
+
+/// From the medians of pictures or, where the scene deforms, of rebuilds and pictures by turns.
+TimesByLights parted(const std::vector<double>& medians, bool deforming) {
+    if (!deforming) return {medians, {}, {}};
+    TimesByLights times;
+    for (std::size_t i = 0; i + 1 < medians.size(); i += 2) {
+        times.rebuild.push_back(medians[i]);
+        times.asking.push_back(medians[i + 1]);
+        times.whole.push_back(medians[i] + medians[i + 1]);
+    }
+    return times;
+}
+
+/// The times by the number of lights, and what a light costs at each number beside one of `base_lights`.
+void add_times(MeasuredTable& table, std::string_view scene, const std::vector<std::uint32_t>& counts,
+               std::uint32_t base_lights, const std::vector<double>& seconds, std::string_view what,
+               std::string_view per_light) {
+    const std::size_t first = table.rows.size();
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        add_figure(table, scene, what, 1e3 * seconds[i], "ms", 1, counts[i], count_text(counts[i]) + " lights");
+    const MeasuredRow base =
+        table.rows[first + static_cast<std::size_t>(std::ranges::find(counts, base_lights) - counts.begin())];
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        if (counts[i] != base_lights) table.rows.push_back(time_per_light(table.rows[first + i], base, per_light));
 }
 
 QueryCount counted(const Prepared& prepared, Measuring& m,
@@ -167,22 +197,28 @@ void times_by_lights(MeasuredTable& table, BenchRun& run, Results& results, Prog
     Measuring m{table, run, results, progress};
     for (const std::string& scene : scenes_for(table, run, std::span(paper_scenes).first(5))) {
         say(run, table, scene);
-        std::vector<Ask> asks;
         const auto moments = deforms(scene) ? two_moments(session_of(run, scene, rows_for(scene)), m) : nullptr;
+        std::vector<Ask> asks;
         for (const std::uint32_t lights : counts)
-            asks.push_back(picture_ask(prepare_for(scene, rows_for(scene), m, lights), moments, m));
-        const std::vector<double> seconds = median_seconds(run, asks, progress);
-        const std::size_t first = table.rows.size();
+            asks.push_back(picture_ask(prepare_for(scene, rows_for(scene), m, lights), nullptr, m));
+        if (moments)
+            for (std::size_t i = 0; i < counts.size(); ++i)  // before each picture, as where things move
+                asks.insert(asks.begin() + static_cast<std::ptrdiff_t>(2 * i),
+                            [moments, &m] { return build_next(*moments, m); });
+        const TimesByLights times = parted(median_seconds(run, asks, progress), moments != nullptr);
+        add_times(table, scene, counts, base_lights, times.whole, quantity::render_time, quantity::time_per_light);
+        if (!moments) continue;
         for (std::size_t i = 0; i < counts.size(); ++i)
-            add_figure(table, scene, quantity::render_time, 1e3 * seconds[i], "ms", 1, counts[i],
+            add_figure(table, scene, quantity::rebuild_time, 1e3 * times.rebuild[i], "ms", 1, counts[i],
                        count_text(counts[i]) + " lights");
-        const std::size_t base =
-            first + static_cast<std::size_t>(std::ranges::find(counts, base_lights) - counts.begin());
-        for (std::size_t i = 0; i < counts.size(); ++i)
-            if (counts[i] != base_lights) table.rows.push_back(time_per_light(table.rows[first + i], table.rows[base]));
+        add_times(table, scene, counts, base_lights, times.asking, quantity::asking_time,
+                  quantity::asking_time_per_light);
     }
     add_device(m, m.device);
     add_deforming_note(table);
+    table.notes.push_back(
+        "There the time is also given in its two parts: the rebuild, which does not depend on the lights, and asking; "
+        "the whole is the sum of their medians.");
     table.notes.push_back("Time per light: to that of " + count_text(base_lights) + " lights; 1 is exactly linear.");
 }
 

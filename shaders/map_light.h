@@ -25,16 +25,16 @@ struct MapDraws {
 };
 
 /// A place in the map, both from 0 to 1.
-struct MapPlace {
+struct EnvironmentPlace {
     Real across;
     Real down;
 };
 
-FN MapPlace map_place(MapShape map, Vec3 direction) {
+FN EnvironmentPlace map_place(MapShape map, Vec3 direction) {
     const Real x = fused(splat(-map.turn_sine), direction.z, splat(map.turn_cosine) * direction.x);
     const Real z = fused(splat(map.turn_cosine), direction.z, splat(map.turn_sine) * direction.x);
     const Real ring = sqrt(fused(z, z, x * x));
-    MapPlace place;
+    EnvironmentPlace place;
     place.across = turns_of(x, -z) + splat(0.5f);
     place.down = splat(2.0f) * turns_of(ring, direction.y);
     return place;
@@ -42,7 +42,7 @@ FN MapPlace map_place(MapShape map, Vec3 direction) {
 
 /// Radiance from a unit direction, bilinear.
 FN Vec3 light_from_map(MapLight map, Vec3 direction) {
-    const MapPlace place = map_place(map.shape, direction);
+    const EnvironmentPlace place = map_place(map.shape, direction);
     const int width = map.shape.width;
     const int height = map.shape.height;
     // One more, so that what is cut off is never negative.
@@ -121,7 +121,7 @@ FN Vec3 direction_by_map(MapDraws draws, Real u, Real v) {
 
 /// How densely `direction_by_map` draws a unit direction, per sr.
 FN Real density_by_map(MapDraws draws, Vec3 direction) {
-    const MapPlace place = map_place(draws.shape, direction);
+    const EnvironmentPlace place = map_place(draws.shape, direction);
     const int width = draws.shape.width;
     const int height = draws.shape.height;
     const Int column = min(max(to_int(place.across * splat(float(width))), splat(0)), splat(width - 1));

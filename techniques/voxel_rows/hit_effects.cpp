@@ -8,6 +8,7 @@
 #include "techniques/base/random.h"
 #include "techniques/rays/embree_scene.h"
 #include "techniques/voxel_rows/first_hits.h"
+#include "techniques/voxel_rows/vulkan_first_hits.h"
 
 namespace sightlines::voxel_rows {
 namespace {
@@ -24,28 +25,51 @@ struct LineRays {
         segments.push_back(segment);
         normals.push_back(normal);
     }
-    void ask(const RowArray& array, const RowShape& query) {
-        distances_m.resize(segments.size());
-        first_hits(array, query, segments, normals, distances_m);
-    }
 };
+
+/// The device is given so many lines at once; a line for itself would keep no device busy.
+constexpr int lines_together = 16;
+
+/// Fills in the distances, on the device in one go.
+void ask_device(const HitQuery& query, std::span<LineRays> lines, const Progress& progress) {
+    LineRays all;
+    for (const LineRays& line : lines) {
+        all.segments.insert(all.segments.end(), line.segments.begin(), line.segments.end());
+        all.normals.insert(all.normals.end(), line.normals.begin(), line.normals.end());
+    }
+    all.distances_m.resize(all.segments.size());
+    first_hits_on_vulkan(*query.on_device, query.shape, all.segments, all.normals, all.distances_m, progress);
+    auto from = all.distances_m.begin();
+    for (LineRays& line : lines) {
+        const auto to = from + static_cast<std::ptrdiff_t>(line.segments.size());
+        line.distances_m.assign(from, to);
+        from = to;
+    }
+}
 
 /// Asks the rays that `rays_of(pixel, rays)` adds for each pixel that shows a surface; `answer(rays)` for each line.
 template <class RaysOf, class Answer>
-void ask_lines(const RowArray& array, const RowShape& query, const SurfaceBuffer& surfaces, int threads,
-               Progress& progress, const RaysOf& rays_of, const Answer& answer) {
+void ask_lines(const HitQuery& query, const SurfaceBuffer& surfaces, int threads, Progress& progress,
+               const RaysOf& rays_of, const Answer& answer) {
     const auto width = static_cast<std::size_t>(surfaces.size.width);
     progress.begin("looking for first hits", surfaces.size.height);
-    parallel_for(surfaces.size.height, threads, [&](std::int64_t line) {
-        progress.check();
-        LineRays rays;
-        for (std::size_t p = static_cast<std::size_t>(line) * width; p < static_cast<std::size_t>(line + 1) * width;
-             ++p)
-            if (surfaces.triangle[p] != no_triangle) rays_of(p, rays);
-        rays.ask(array, query);
-        answer(rays);
-        progress.advance();
-    });
+    for (int top = 0; top < surfaces.size.height; top += lines_together) {
+        const int count = std::min(lines_together, surfaces.size.height - top);
+        std::vector<LineRays> lines(static_cast<std::size_t>(count));
+        parallel_for(count, threads, [&](std::int64_t k) {
+            progress.check();
+            LineRays& rays = lines[static_cast<std::size_t>(k)];
+            const std::size_t start = static_cast<std::size_t>(top + k) * width;
+            for (std::size_t p = start; p < start + width; ++p)
+                if (surfaces.triangle[p] != no_triangle) rays_of(p, rays);
+            if (query.on_device) return;
+            rays.distances_m.resize(rays.segments.size());
+            first_hits(query.array, query.shape, rays.segments, rays.normals, rays.distances_m);
+        });
+        if (query.on_device) ask_device(query, lines, progress);
+        for (const LineRays& rays : lines) answer(rays);
+        progress.advance(count);
+    }
 }
 
 }  // namespace
@@ -61,8 +85,8 @@ vec3 cosine_direction(vec3 normal, float u, float v) {
            std::sqrt(std::max(0.0f, 1.0f - u)) * normal;
 }
 
-ImageScalar ambient_openness(const RowArray& array, const RowShape& query, const SurfaceBuffer& surfaces,
-                             const OcclusionOptions& options, Progress& progress) {
+ImageScalar ambient_openness(const HitQuery& query, const SurfaceBuffer& surfaces, const OcclusionOptions& options,
+                             Progress& progress) {
     ImageScalar openness(surfaces.size, 1.0f);
     const auto rays_of = [&](std::size_t pixel, LineRays& rays) {
         const vec3 position = surfaces.position[pixel], normal = surfaces.normal[pixel];
@@ -76,7 +100,7 @@ ImageScalar ambient_openness(const RowArray& array, const RowShape& query, const
             rays.add(pixel, {position, position + options.reach_m * direction}, normal);
         }
     };
-    ask_lines(array, query, surfaces, options.threads, progress, rays_of, [&](const LineRays& rays) {
+    ask_lines(query, surfaces, options.threads, progress, rays_of, [&](const LineRays& rays) {
         for (std::size_t k = 0; k < rays.pixels.size(); ++k) {
             const float blocked = 1.0f - std::min(rays.distances_m[k] / options.reach_m, 1.0f);
             openness.pixels[rays.pixels[k]] -= blocked / static_cast<float>(options.rays);
@@ -92,8 +116,8 @@ vec3 mirrored_direction(const SurfaceBuffer& surfaces, std::size_t pixel) {
     return glm::reflect(glm::normalize(seen.target - seen.origin), surfaces.shading_normal[pixel]);
 }
 
-SurfaceBuffer mirrored_surfaces(const RowArray& array, const RowShape& query, const SurfaceVoxels& voxels,
-                                const SurfaceBuffer& surfaces, int threads, Progress& progress) {
+SurfaceBuffer mirrored_surfaces(const HitQuery& query, const SurfaceVoxels& voxels, const SurfaceBuffer& surfaces,
+                                int threads, Progress& progress) {
     SurfaceBuffer mirrored;
     const std::size_t count = surfaces.size.pixels();
     mirrored.size = surfaces.size;
@@ -105,9 +129,9 @@ SurfaceBuffer mirrored_surfaces(const RowArray& array, const RowShape& query, co
     const auto rays_of = [&](std::size_t pixel, LineRays& rays) {
         const vec3 direction = mirrored_direction(surfaces, pixel);
         const vec3 position = surfaces.position[pixel];
-        rays.add(pixel, {position, position + query.reach_m * direction}, surfaces.normal[pixel]);
+        rays.add(pixel, {position, position + query.shape.reach_m * direction}, surfaces.normal[pixel]);
     };
-    ask_lines(array, query, surfaces, threads, progress, rays_of, [&](const LineRays& rays) {
+    ask_lines(query, surfaces, threads, progress, rays_of, [&](const LineRays& rays) {
         for (std::size_t k = 0; k < rays.pixels.size(); ++k) {
             if (std::isinf(rays.distances_m[k])) continue;
             const vec3 direction = glm::normalize(rays.segments[k].target - rays.segments[k].origin);

@@ -286,24 +286,24 @@ RenderResult lit(const BuiltRows& built, const RenderRequest& request, Progress&
     return render_on_vulkan(*device.array, built.array, request, progress, device.objects);
 }
 
-void add_occlusion(const BuiltRows& built, const RenderRequest& request, const RowShape& query, RenderResult& result,
+void add_occlusion(const BuiltRows& built, const RenderRequest& request, const HitQuery& query, RenderResult& result,
                    Progress& progress) {
     const auto value = [&](std::string_view name) { return parameter_value(parameters, request.parameters, name); };
     const double reach_m = 0.01 * value("occlusion_reach") * built.array.grid.bounds.diagonal();
     const OcclusionOptions options{static_cast<int>(value("occlusion_rays")), static_cast<float>(reach_m), request.seed,
                                    request.threads};
-    const ImageScalar openness = ambient_openness(built.array, query, *request.surfaces, options, progress);
+    const ImageScalar openness = ambient_openness(query, *request.surfaces, options, progress);
     for (std::size_t p = 0; p < openness.pixels.size(); ++p) {
         const vec3 emission = request.surfaces->emission[p];
         result.radiance.pixels[p] = emission + openness.pixels[p] * (result.radiance.pixels[p] - emission);
     }
 }
 
-void add_mirrors(const BuiltRows& built, const RenderRequest& request, const RowShape& query, RenderResult& result,
+void add_mirrors(const BuiltRows& built, const RenderRequest& request, const HitQuery& query, RenderResult& result,
                  Progress& progress) {
     const auto share = static_cast<float>(parameter_value(parameters, request.parameters, "mirror_share"));
     const SurfaceBuffer mirrored =
-        mirrored_surfaces(built.array, query, *built.surface, *request.surfaces, request.threads, progress);
+        mirrored_surfaces(query, *built.surface, *request.surfaces, request.threads, progress);
     RenderRequest reflected = request;
     reflected.surfaces = &mirrored;
     reflected.keep_verdicts = false;
@@ -320,7 +320,8 @@ RenderResult render(const Structure& structure, const RenderRequest& request, Pr
     const Effect effect = effect_of(request.parameters);
     if (effect == Effect::off) return result;
     const auto start = std::chrono::steady_clock::now();
-    const RowShape query = make_query(built.array, request.parameters, {});
+    const auto device = request.backend == Backend::vulkan ? on_device(built, progress).array : nullptr;
+    const HitQuery query{built.array, make_query(built.array, request.parameters, {}), device.get()};
     if (effect == Effect::ambient_occlusion)
         add_occlusion(built, request, query, result, progress);
     else

@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <map>
-#include <mutex>
 #include <numbers>
 #include <optional>
 
 #include "shaders/spirv.h"
 #include "shaders/voxel_rows_lighting_data.h"
-#include "techniques/compute/buffer.h"
-#include "techniques/compute/dispatch.h"
 #include "techniques/pixel_groups.h"
 #include "techniques/rays/light_records.h"
 #include "techniques/refinement.h"
 #include "techniques/voxel_rows/query.h"
+#include "techniques/voxel_rows/vulkan_rows.h"
 
 namespace sightlines::voxel_rows {
 namespace {
@@ -24,29 +21,6 @@ constexpr std::uint32_t workgroup = 64;             ///< local_size_x of the sha
 constexpr std::uint32_t mixed_lights = 3;           ///< kind_of_all_lights where the lights differ in kind
 constexpr double longest_dispatch_seconds = 0.015;  ///< the window draws on the same device in between
 constexpr std::uint32_t light_step = 32;            ///< lights are cut into multiples of a verdict word
-
-/// What a pipeline is compiled for, besides the array.
-struct PipelineKey {
-    int subrays = 1, clip = 0;
-    std::uint32_t shade = 1, kind_of_all_lights = mixed_lights;
-
-    auto operator<=>(const PipelineKey&) const = default;
-};
-
-}  // namespace
-
-struct VulkanRows {
-    std::shared_ptr<const compute::Device> device;
-    std::shared_ptr<void> words_owner;  ///< keeps the words alive as long as `rows`, which may be the same memory
-    compute::Buffer rows, frames;
-    bool as_texels = false;  ///< rows and frames are read by texel fetches instead of by address
-    RowShape shape{};
-    // Pipelines are compiled when first asked for: compiling takes longer than a frame.
-    mutable std::mutex pipelines_mutex;
-    mutable std::map<PipelineKey, compute::Pipeline> pipelines;
-};
-
-namespace {
 
 const compute::Pipeline& pipeline_for(const VulkanRows& rows, const PipelineKey& key) {
     const std::lock_guard lock(rows.pipelines_mutex);
@@ -89,7 +63,7 @@ std::vector<PixelRect> tiles_of(ImageSize size, compute::DeviceKind kind) {
 struct TileAsker {
     const VulkanRows& rows;
     const compute::Pipeline& pipeline;
-    compute::BoundTexels texels{};
+    std::optional<compute::BoundTexels> texels{};
     compute::Buffer lights{};
     compute::Buffer surfaces{}, sums{}, verdicts{};  ///< of one tile, mapped
     LightingJob job{};
@@ -134,11 +108,7 @@ TileAsker make_asker(const VulkanRows& rows, const RowArray& array, const Render
     const bool array_shades = shade && objects.empty();
     const PipelineKey key{query.subrays, query.clip_to_bounds, array_shades ? 1u : 0u, kind_of_all(lights)};
     TileAsker asker{rows, pipeline_for(rows, key)};
-    if (rows.as_texels) {
-        const std::array<compute::TexelSource, 2> sources{
-            {{&rows.frames, VK_FORMAT_R32G32B32A32_SFLOAT}, {&rows.rows, VK_FORMAT_R32G32B32A32_UINT}}};
-        asker.texels = compute::bind_texels(asker.pipeline, sources);
-    }
+    asker.texels = bind_rows(rows, asker.pipeline);
     const std::size_t most_pixels = most_pixels_of_a_tile(rows, request);
     asker.light_count = static_cast<std::uint32_t>(lights.size());
     const bool verdicts = (request.keep_verdicts && shade) || !objects.empty();
@@ -190,7 +160,7 @@ void ask_tile(TileAsker& asker, const PixelGroups& pixels, const Progress& progr
         const auto step = static_cast<std::uint32_t>(std::clamp(fitting, 1.0, 1.0e6)) / light_step * light_step;
         asker.job.end_light = std::min(asker.job.first_light + std::max(step, light_step), asker.light_count);
         double seconds = compute::dispatch(asker.pipeline, std::as_bytes(std::span(&asker.job, 1)),
-                                           {count / workgroup, 1, 1}, asker.rows.as_texels ? &asker.texels : nullptr);
+                                           {count / workgroup, 1, 1}, asker.texels ? &*asker.texels : nullptr);
         if (asker.objects)
             seconds += ask_objects(*asker.objects, asker.job.first_light, asker.job.end_light, count / workgroup);
         const double pairs = static_cast<double>(count) * (asker.job.end_light - asker.job.first_light);
@@ -221,6 +191,13 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 }  // namespace
+
+std::optional<compute::BoundTexels> bind_rows(const VulkanRows& rows, const compute::Pipeline& pipeline) {
+    if (!rows.as_texels) return std::nullopt;
+    const std::array<compute::TexelSource, 2> sources{
+        {{&rows.frames, VK_FORMAT_R32G32B32A32_SFLOAT}, {&rows.rows, VK_FORMAT_R32G32B32A32_UINT}}};
+    return compute::bind_texels(pipeline, sources);
+}
 
 std::shared_ptr<const VulkanRows> give_to_vulkan(const RowArray& array, Progress& progress) {
     const auto rows = std::make_shared<VulkanRows>();

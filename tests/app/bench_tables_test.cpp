@@ -2,6 +2,7 @@
 #include "app/bench_tables.h"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -204,6 +205,27 @@ TEST(MedianSeconds, AsksInTurnAndLeavesTheFirstRoundOut) {
     EXPECT_EQ(medians, (std::vector<double>{1.0, 10.0}));  // of 2, 1, 0
 }
 
+TEST(MeanErrors, AreThoseOfSeveralSeedsWhereLightsAreFew) {
+    EXPECT_EQ(light_sets(64, 1024), 16u);
+    EXPECT_EQ(light_sets(512, 1024), 2u);
+    EXPECT_EQ(light_sets(1000, 1024), 2u);
+    EXPECT_EQ(light_sets(10000, 1024), 1u);
+    EXPECT_EQ(light_sets(0, 1024), 1u);  // the scene's own
+    BenchRun run;
+    Session session = session_of(run, "trees", rows_for("trees"), 64);
+    session.reference = true;
+    for (const auto& [visibility, shadow] : {std::pair(3.0, 1.0), std::pair(5.0, 4.0)}) {
+        run.known_errors[json_from_session(picture_part(session)).dump()] = {visibility, shadow};
+        ++session.seed;
+    }
+    session.seed -= 2;
+    Results results(1, Backend::cpu);
+    Progress progress;
+    const MeanErrors mean = mean_errors(run, session, 2, results, progress);
+    EXPECT_DOUBLE_EQ(mean.visibility, 4.0);
+    EXPECT_DOUBLE_EQ(mean.shadow, 2.5);
+}
+
 TEST(Sessions, GiveThePapersParametersToVoxelRowsAndTheCpuToTheOthers) {
     BenchRun run;
     run.base.backend = BackendChoice::vulkan;
@@ -238,6 +260,31 @@ TEST(Bench, MeasuresAQuickTableIntoThreeFiles) {
         EXPECT_LT(std::stod(cells[5]), counts_points ? 1e6 : 60.0) << lines[i];
         EXPECT_EQ(cells[6], "");  // the paper has no such scene
     }
+}
+
+TEST(Bench, GivesTheRebuildOfADeformingSceneApartFromAskingItsLights) {
+    const fs::path folder = fresh_folder();
+    const ProgramRun run =
+        run_program({"bench", "voxel-rows/table6", "--quick", "--scene", "bear", "--size", "32x18", "--set",
+                     "resolution=32", "--set", "angle_step=6", "--backend", "cpu", "--repetitions", "1", "--out", "b"},
+                    folder);
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    std::map<std::string, std::map<std::string, double>> ours;  // by quantity and lights
+    for (const std::string& line : lines_of(text_of(folder / "b" / "voxel-rows-table6.csv"))) {
+        const Cells cells = csv_cells(line);
+        if (cells[1] == "bear") ours[cells[2]][cells[3]] = std::stod(cells[5]);
+    }
+    for (const std::string lights : {"128.0", "256.0", "512.0"}) {
+        const double rebuild = ours[std::string(quantity::rebuild_time)][lights];
+        const double asking = ours[std::string(quantity::asking_time)][lights];
+        EXPECT_GT(rebuild, 0.0);
+        EXPECT_GT(asking, 0.0);
+        EXPECT_NEAR(ours[std::string(quantity::render_time)][lights], rebuild + asking, 1e-9 * (rebuild + asking));
+    }
+    EXPECT_EQ(ours[std::string(quantity::asking_time_per_light)].size(), 2u);
+    const auto& asking = ours[std::string(quantity::asking_time)];
+    EXPECT_NEAR(ours[std::string(quantity::asking_time_per_light)]["128.0"],
+                4.0 * asking.at("128.0") / asking.at("512.0"), 1e-9);
 }
 
 TEST(Bench, RefusesAnotherTechniqueForATableThatNamesItsOwn) {

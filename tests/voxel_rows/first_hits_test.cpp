@@ -1,15 +1,20 @@
 // Where rays first hit: analytic walls, the naive walk along the row, and the two compilations against each other.
 #include "techniques/voxel_rows/first_hits.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include <gtest/gtest.h>
 
 #include "shaders/voxel_rows_first_hit.h"
+#include "techniques/compute/device.h"
+#include "techniques/voxel_rows/dictionary.h"
 #include "techniques/voxel_rows/hit_effects.h"
 #include "techniques/voxel_rows/query.h"
 #include "techniques/voxel_rows/voxel_rows.h"
+#include "techniques/voxel_rows/vulkan_first_hits.h"
 #include "tests/voxel_rows/scenes.h"
 
 namespace sightlines::voxel_rows {
@@ -163,7 +168,7 @@ TEST(HitEffects, AMirrorShowsTheWallBehindTheCamera) {
     const Scene scene = two_walls();
     const RowArray array = build_from_fragments(scene, small_build(), progress);
     const SurfaceBuffer mirrored = mirrored_surfaces(
-        array, make_query(array, {}, {}), voxelize_surface(scene, 64, 2, progress), one_pixel(), 1, progress);
+        {array, make_query(array, {}, {})}, voxelize_surface(scene, 64, 2, progress), one_pixel(), 1, progress);
     ASSERT_EQ(mirrored.triangle[0], 0u);
     EXPECT_LT(glm::distance(mirrored.position[0], vec3(8.0f, 3.0f, 3.0f)), 0.25f);
     EXPECT_LT(glm::distance(mirrored.albedo[0], vec3(0.2f, 0.4f, 0.8f)), 0.01f);
@@ -179,12 +184,90 @@ TEST(HitEffects, OcclusionCountsHitsByTheirDistance) {
     const RowArray array = build_from_fragments(scene, small_build(), progress);
     const auto openness = [&](float reach_m) {
         const OcclusionOptions options{.rays = 256, .reach_m = reach_m};
-        return ambient_openness(array, make_query(array, {}, {}), one_pixel(), options, progress).pixels[0];
+        return ambient_openness({array, make_query(array, {}, {})}, one_pixel(), options, progress).pixels[0];
     };
     EXPECT_EQ(openness(4.0f), 1.0f);  // the wall is 8 m away
     // What it hides of the hemisphere: the form factor of a parallel rectangle, 6 m x 6 m at 8 m.
     EXPECT_NEAR(openness(10000.0f), 1.0f - 0.15096f, 0.02f);
     EXPECT_GT(openness(16.0f), openness(10000.0f) + 0.03f);
+}
+
+#define NEEDS_VULKAN                                                                       \
+    if (compute::list_devices().empty() || !compute::list_devices().front().lacks.empty()) \
+    GTEST_SKIP() << "no usable Vulkan device"
+
+/// The array as it is, and with a dictionary whose indices take 20 and 32 bits.
+std::vector<RowArray> arrays_to_ask(const Scene& scene, int resolution) {
+    Progress progress;
+    BuildOptions options = small_build();
+    options.resolution = resolution;
+    options.angle_step_deg = 6.0;
+    const RowArray array = build_from_fragments(scene, options, progress);
+    std::vector<RowArray> arrays{array};
+    for (const bool packed : {true, false})
+        arrays.push_back(compress(array, {.rows = 5000, .packed = packed}, progress));
+    return arrays;
+}
+
+/// How many distances differ by more than rounding: at another voxel, or on one side alone.
+std::ptrdiff_t other_hits(std::span<const float> here, std::span<const float> there) {
+    std::ptrdiff_t others = 0;
+    for (std::size_t k = 0; k < here.size(); ++k)
+        others += here[k] != there[k] && !(std::abs(here[k] - there[k]) <= 1e-4f * here[k]);
+    return others;
+}
+
+TEST(FirstHitsOnVulkan, AreThoseOfTheCpuButForRounding) {
+    NEEDS_VULKAN;
+    const Progress progress;
+    Progress of_building;
+    const Scene scene = testing::scattered_triangles(60, 3);
+    const std::vector<Segment> segments = random_segments(scene.bounds, 20001);  // not whole workgroups
+    const std::vector<vec3> normals(segments.size(), vec3(0.0f, 1.0f, 0.0f));
+    for (const int resolution : {32, 64, 128})  // by words, and by texels where the device is the CPU
+        for (const RowArray& array : arrays_to_ask(scene, resolution)) {
+            const RowShape query = make_query(array, {}, {});
+            std::vector<float> here(segments.size()), there(segments.size(), -1.0f);
+            first_hits(array, query, segments, normals, here);
+            first_hits_on_vulkan(*give_to_vulkan(array, of_building), query, segments, normals, there, progress);
+            // Where rounding differs, a ray in ten thousand may take the next row.
+            EXPECT_LE(other_hits(here, there), 2)
+                << resolution << " voxels, indices of " << query.index_bits << " bits";
+            EXPECT_GT(std::ranges::count_if(there, [](float distance) { return std::isfinite(distance); }), 1000);
+        }
+}
+
+TEST(FirstHitsOnVulkan, StopWhenCancelled) {
+    NEEDS_VULKAN;
+    Progress progress;
+    const Scene scene = two_walls();
+    const RowArray array = build_from_fragments(scene, small_build(), progress);
+    const auto on_device = give_to_vulkan(array, progress);
+    const std::vector<Segment> segments = random_segments(scene.bounds, 10);
+    const std::vector<vec3> normals(segments.size(), vec3(1.0f, 0.0f, 0.0f));
+    std::vector<float> distances(segments.size());
+    progress.cancel();
+    EXPECT_THROW(first_hits_on_vulkan(*on_device, make_query(array, {}, {}), segments, normals, distances, progress),
+                 Cancelled);
+}
+
+TEST(HitEffectsOnVulkan, AreThoseOfTheCpu) {
+    NEEDS_VULKAN;
+    Progress progress;
+    const Scene scene = two_walls();
+    const RowArray array = build_from_fragments(scene, small_build(), progress);
+    const auto on_device = give_to_vulkan(array, progress);
+    const HitQuery by_cpu{array, make_query(array, {}, {})}, by_device{array, by_cpu.shape, on_device.get()};
+    const OcclusionOptions options{.rays = 256, .reach_m = 16.0f};
+    const ImageScalar open = ambient_openness(by_cpu, one_pixel(), options, progress);
+    EXPECT_LT(open.pixels[0], 0.95f);
+    EXPECT_EQ(open.pixels, ambient_openness(by_device, one_pixel(), options, progress).pixels);
+    const SurfaceVoxels voxels = voxelize_surface(scene, 64, 2, progress);
+    const SurfaceBuffer here = mirrored_surfaces(by_cpu, voxels, one_pixel(), 1, progress);
+    const SurfaceBuffer there = mirrored_surfaces(by_device, voxels, one_pixel(), 1, progress);
+    EXPECT_EQ(here.triangle, there.triangle);
+    EXPECT_EQ(here.position, there.position);
+    EXPECT_EQ(here.albedo, there.albedo);
 }
 
 TEST(HitEffects, DirectionsFollowTheCosine) {
