@@ -216,9 +216,10 @@ void times_by_lights(MeasuredTable& table, BenchRun& run, Results& results, Prog
     }
     add_device(m, m.device);
     add_deforming_note(table);
-    table.notes.push_back(
-        "There the time is also given in its two parts: the rebuild, which does not depend on the lights, and asking; "
-        "the whole is the sum of their medians.");
+    if (std::ranges::any_of(table.rows, [](const MeasuredRow& row) { return row.quantity == quantity::rebuild_time; }))
+        table.notes.push_back(
+            "There the time is also given in its two parts: the rebuild, which does not depend on the lights, and "
+            "asking; the whole is the sum of their medians.");
     table.notes.push_back("Time per light: to that of " + count_text(base_lights) + " lights; 1 is exactly linear.");
 }
 

@@ -303,8 +303,9 @@ Shared<BuiltStructure> Results::structure(const Session& session, Progress& prog
         request.cache_folder = cache_folder;
         Session at_any_time = part;
         at_any_time.time_s = 0.0;
-        if (kept_part_ == at_any_time) request.kept = kept_;
-        kept_ = {};
+        // Stays where this build is cancelled, as it is when time moves on.
+        if (kept_part_ != at_any_time) kept_ = {};
+        request.kept = kept_;
         built.structure = built.technique->build(request, progress);
         built.statistics = built.technique->statistics(built.structure);
         kept_part_ = at_any_time;

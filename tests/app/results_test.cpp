@@ -1,5 +1,6 @@
 #include "app/results.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <thread>
 
@@ -178,6 +179,39 @@ TEST(Results, AMovingScenesPictureDoesNotDependOnTheTimesBefore) {
     const auto expected = straight.picture(session, progress), got = by_detours.picture(session, progress);
     EXPECT_EQ(expected->value.radiance.pixels, got->value.radiance.pixels);
     EXPECT_NE(by_detours.structure(session, progress), straight.structure(session, progress));
+}
+
+TEST(Results, KeepWhatMomentsShareWhereOneInBetweenIsCancelled) {
+    Results results(0, Backend::cpu);
+    Progress progress;
+    Session session = small_session();
+    session.scene = "bear";
+    session.technique = "visibility_field";
+    session.parameters["visibility_field"] = {{"points", 2000.0}, {"rays_per_point", 16.0}, {"cell_size", 2.0}};
+    const auto shared_seconds = [&] {
+        const auto structure = results.structure(session, progress);
+        const auto& values = structure->value.statistics.values;
+        return std::ranges::find(values, "baking what stands still, once", &Statistic::name)->value;
+    };
+    const double first = shared_seconds();
+    bool cancelled = false;
+    for (int k = 1; k < 50 && !cancelled; ++k) {  // the build may be over before it is told to stop
+        session.time_s = 0.05 * k;
+        results.scene(session, progress);
+        Progress stopped;
+        std::jthread stopping([&] {
+            while (stopped.stage().empty()) std::this_thread::yield();
+            stopped.cancel();
+        });
+        try {
+            results.structure(session, stopped);
+        } catch (const Cancelled&) {
+            cancelled = true;
+        }
+    }
+    ASSERT_TRUE(cancelled);
+    session.time_s = 4.0;
+    EXPECT_EQ(shared_seconds(), first);  // baked once, or the clock would say otherwise
 }
 
 TEST(Results, KeepCompressedStructuresInTheFolderThatIsGiven) {
