@@ -167,6 +167,7 @@ void assemble(const FixedField& fixed, const std::vector<MomentCell>& cells, con
     }
     field.masks.assign(fixed.field.masks.begin(), fixed.field.masks.end() - spare_words);
     MaskNumbers added;
+    std::size_t baked_cells = 0;
     auto next = static_cast<std::uint32_t>(field.masks.size() / words);
     for (const BakedCells& part : baked) {
         for (std::size_t k = 0; k < 2 * part.cells.size(); ++k) {
@@ -184,11 +185,11 @@ void assemble(const FixedField& fixed, const std::vector<MomentCell>& cells, con
         }
         for (std::size_t k = 0; k < part.cells.size(); ++k) labels[part.cells[k]] = part.masks.labels[k];
         field.rays_again += part.rays;
-        field.kept_cells -= static_cast<std::uint32_t>(part.cells.size());
+        baked_cells += part.cells.size();
     }
     field.masks.resize(field.masks.size() + spare_words);
     set_cells(numbers, labels, field);
-    field.kept_cells += field.cells;
+    field.kept_cells = static_cast<std::uint32_t>(cells.size() - baked_cells);
 }
 
 /// A little larger, for rounding.
