@@ -1,6 +1,5 @@
 #include "techniques/visibility_field/bake.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -8,7 +7,6 @@
 
 #include "techniques/base/error.h"
 #include "techniques/base/huge_buffer.h"
-#include "techniques/base/parallel.h"
 #include "techniques/visibility_field/casting.h"
 #include "techniques/visibility_field/cell_masks.h"
 #include "techniques/visibility_field/memory_need.h"
@@ -17,29 +15,7 @@
 namespace sightlines::visibility_field {
 namespace {
 
-constexpr std::int64_t cells_per_task = 16;
 constexpr int most_rays = 4096;
-
-FinishedMasks cast_all(const EmbreeScene& embree, const CellPoints& points, const FieldShape& shape,
-                       const BakeOptions& options, Progress& progress) {
-    const RaySet set = make_ray_set(options.rays);
-    FinishedMasks masks = make_finished_masks(points.cells.size(), shape);
-    progress.begin("casting rays from point samples", static_cast<std::int64_t>(points.points.size()));
-    const auto count = static_cast<std::int64_t>(points.cells.size());
-    parallel_for((count + cells_per_task - 1) / cells_per_task, options.threads, [&](std::int64_t task) {
-        CastingRoom room(set);
-        const auto begin = static_cast<std::size_t>(task * cells_per_task);
-        for (std::size_t cell = begin; cell < std::min(begin + cells_per_task, points.cells.size()); ++cell) {
-            MaskPair parts;
-            for (std::uint32_t k = points.first[cell]; k < points.first[cell + 1]; ++k)
-                cast_from(embree, set, points.points[k], casting_size(options), options.seed ^ casting_seed, room,
-                          parts.visible, parts.occluded);
-            finish_cell(parts, options, cell, masks);
-            progress.advance(points.first[cell + 1] - points.first[cell]);
-        }
-    });
-    return masks;
-}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -68,7 +44,7 @@ VisibilityField bake(const Scene& scene, const EmbreeScene& embree, const BakeOp
     const auto start = std::chrono::steady_clock::now();
     CellPoints points = place_points(scene, field.shape, options, progress);
     field.place_seconds = seconds_since(start);
-    assemble(points, cast_all(embree, points, field.shape, options, progress), field);
+    assemble(points, cast_cells(embree, points, options, progress), field);
     field.rays = field.points * static_cast<std::uint64_t>(options.rays);
     field.cast_seconds = seconds_since(start) - field.place_seconds;
     if (kept != nullptr) *kept = std::move(points);

@@ -76,6 +76,18 @@ void choose_rays(std::span<const Box3> boxes, const RaySet& set, vec3 start, Cas
     }
 }
 
+/// Casts the aimed rays from `start`: fills `room.blocked` in.
+void cast_aimed(const EmbreeScene& embree, const RaySet& set, vec3 start, CastingRoom& room) {
+    PackedOpenRays rays;
+    rays.count = static_cast<std::size_t>(set.rays);
+    for (int axis = 0; axis < 3; ++axis) {
+        std::ranges::fill(room.origin[axis], start[axis]);
+        rays.origin[axis] = room.origin[axis].data();
+        rays.direction[axis] = room.direction[axis].data();
+    }
+    are_blocked(embree, rays, room.blocked);
+}
+
 }  // namespace
 
 RaySet make_ray_set(int rays) {
@@ -113,17 +125,6 @@ void aim_from(const RaySet& set, const SurfacePoint& point, int mask_size, std::
     const float turn = two_pi * random_unit(seed, stream, 0);
     const wide::HemisphereFrame frame = wide::frame_about(point.normal, std::cos(turn), std::sin(turn));
     aim(set, frame, random_unit(seed, stream, 1), mask_size, room);
-}
-
-void cast_aimed(const EmbreeScene& embree, const RaySet& set, vec3 start, CastingRoom& room) {
-    PackedOpenRays rays;
-    rays.count = static_cast<std::size_t>(set.rays);
-    for (int axis = 0; axis < 3; ++axis) {
-        std::ranges::fill(room.origin[axis], start[axis]);
-        rays.origin[axis] = room.origin[axis].data();
-        rays.direction[axis] = room.direction[axis].data();
-    }
-    are_blocked(embree, rays, room.blocked);
 }
 
 CastCounts cast_into(std::span<const Box3> boxes, const EmbreeScene& embree, const RaySet& set, vec3 start,

@@ -42,9 +42,6 @@ std::uint32_t ray_stream(const SurfacePoint& point);
 /// Turns the set about the normal and shifts its heights, both at random by ray_stream: directions and texels.
 void aim_from(const RaySet& set, const SurfacePoint& point, int mask_size, std::uint64_t seed, CastingRoom& room);
 
-/// Casts the aimed rays from `start`: fills `room.blocked` in.
-void cast_aimed(const EmbreeScene& embree, const RaySet& set, vec3 start, CastingRoom& room);
-
 struct CastCounts {
     std::size_t cast = 0, blocked = 0;
 };
@@ -57,7 +54,7 @@ CastCounts cast_into(std::span<const Box3> boxes, const EmbreeScene& embree, con
 /// Sets the texels that the rays fall into: of `visible` where nothing is in the way, else of `occluded`.
 void mark_answers(const RaySet& set, const CastingRoom& room, MaskRows& visible, MaskRows& occluded);
 
-/// aim_from, cast_aimed and mark_answers.
+/// Aims, casts all rays from above the point, whose answers stay in `room.blocked`, and marks them.
 void cast_from(const EmbreeScene& embree, const RaySet& set, const SurfacePoint& point, int mask_size,
                std::uint64_t seed, CastingRoom& room, MaskRows& visible, MaskRows& occluded);
 

@@ -1,11 +1,16 @@
 #include "techniques/visibility_field/cell_masks.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "techniques/base/parallel.h"
 #include "techniques/visibility_field/bake.h"
+#include "techniques/visibility_field/casting.h"
 
 namespace sightlines::visibility_field {
 namespace {
+
+constexpr std::size_t cells_per_task = 16;
 
 /// From the parts of texels that rays fell into to texels, dilated. Dilating the merged mask is the same as merging
 /// dilated ones.
@@ -29,11 +34,6 @@ int casting_steps(int mask_size) { return largest_mask / mask_size; }
 
 int casting_size(const BakeOptions& options) { return options.mask_size * casting_steps(options.mask_size); }
 
-FinishedMasks make_finished_masks(std::size_t cells, const FieldShape& shape) {
-    return {std::vector<std::uint32_t>(2 * cells * static_cast<std::size_t>(shape.words_per_mask)),
-            std::vector<std::uint8_t>(cells)};
-}
-
 void finish_cell(const MaskPair& parts, const BakeOptions& options, std::size_t cell, FinishedMasks& masks) {
     const std::size_t words = words_per_mask(options.mask_size);
     const MaskRows visible = finished(parts.visible, options), occluded = finished(parts.occluded, options);
@@ -46,6 +46,32 @@ void add_cell(const MaskPair& parts, const BakeOptions& options, FinishedMasks& 
     masks.labels.push_back(0);
     masks.words.resize(2 * masks.labels.size() * words_per_mask(options.mask_size));
     finish_cell(parts, options, masks.labels.size() - 1, masks);
+}
+
+FinishedMasks cast_cells(const EmbreeScene& embree, const CellPoints& points, const BakeOptions& options,
+                         Progress& progress, std::vector<std::uint32_t>* blocked) {
+    const RaySet set = make_ray_set(options.rays);
+    const std::size_t cells = points.cells.size(), words = words_of_rays(options.rays);
+    FinishedMasks masks{std::vector<std::uint32_t>(2 * cells * words_per_mask(options.mask_size)),
+                        std::vector<std::uint8_t>(cells)};
+    if (blocked != nullptr) blocked->resize(points.points.size() * words);
+    progress.begin("casting rays from point samples", static_cast<std::int64_t>(points.points.size()));
+    const auto tasks = static_cast<std::int64_t>((cells + cells_per_task - 1) / cells_per_task);
+    parallel_for(tasks, options.threads, [&](std::int64_t task) {
+        CastingRoom room(set);
+        const std::size_t begin = static_cast<std::size_t>(task) * cells_per_task;
+        for (std::size_t cell = begin; cell < std::min(begin + cells_per_task, cells); ++cell) {
+            MaskPair parts;
+            for (std::uint32_t k = points.first[cell]; k < points.first[cell + 1]; ++k) {
+                cast_from(embree, set, points.points[k], casting_size(options), options.seed ^ casting_seed, room,
+                          parts.visible, parts.occluded);
+                if (blocked != nullptr) std::copy_n(room.blocked.begin(), words, &(*blocked)[k * words]);
+            }
+            finish_cell(parts, options, cell, masks);
+            progress.advance(points.first[cell + 1] - points.first[cell]);
+        }
+    });
+    return masks;
 }
 
 std::string_view mask_bytes(std::span<const std::uint32_t> mask) {

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "techniques/rays/embree_scene.h"
 #include "techniques/visibility_field/field.h"
 #include "techniques/visibility_field/mask_rows.h"
 #include "techniques/visibility_field/points.h"
@@ -36,13 +37,16 @@ struct FinishedMasks {
     std::vector<std::uint8_t> labels;  ///< [cells]
 };
 
-FinishedMasks make_finished_masks(std::size_t cells, const FieldShape& shape);
-
 /// Dilates and reduces a cell's texels, finds its label and keeps all that as the masks of cell `cell`.
 void finish_cell(const MaskPair& parts, const BakeOptions& options, std::size_t cell, FinishedMasks& masks);
 
 /// The same as those of one more cell.
 void add_cell(const MaskPair& parts, const BakeOptions& options, FinishedMasks& masks);
+
+/// Algorithm 1, lines 5 to 28, for all cells: rays cast from their samples. `blocked`: where not null, gets the answer
+/// to each ray, [points][words_of_rays].
+FinishedMasks cast_cells(const EmbreeScene& embree, const CellPoints& points, const BakeOptions& options,
+                         Progress& progress, std::vector<std::uint32_t>* blocked = nullptr);
 
 /// The number of each mask by its bytes, which lie elsewhere.
 using MaskNumbers = std::unordered_map<std::string_view, std::uint32_t>;

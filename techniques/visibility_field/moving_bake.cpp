@@ -32,18 +32,6 @@ FieldShape shape_of(const Scene& scene, const BakeOptions& options) {
     return make_shape(bounds_of_motion(scene), options.cell_m, options.mask_size);
 }
 
-std::size_t task_count(std::size_t cells) { return (cells + cells_per_task - 1) / cells_per_task; }
-
-/// Calls work(room, cell) in parallel, the cells of a task of cells_per_task one after the other.
-template <class Work>
-void for_cells(std::size_t cells, const RaySet& set, int threads, const Work& work) {
-    parallel_for(static_cast<std::int64_t>(task_count(cells)), threads, [&](std::int64_t task) {
-        CastingRoom room(set);
-        const std::size_t begin = static_cast<std::size_t>(task) * cells_per_task;
-        for (std::size_t cell = begin; cell < std::min(begin + cells_per_task, cells); ++cell) work(room, cell);
-    });
-}
-
 /// A cell of the moment: which of the fixed and which of the moving samples' cells it is; none: of neither.
 struct MomentCell {
     std::uint32_t number = 0;  ///< as CellPoints numbers cells
@@ -138,16 +126,21 @@ std::optional<MaskPair> cast_cell(const MomentBake& bake, const MomentCell& cell
     return parts;
 }
 
+/// By tasks of cells_per_task cells, in their order.
 std::vector<BakedCells> cast_moment(const MomentBake& bake, const std::vector<MomentCell>& cells, Progress& progress) {
-    std::vector<BakedCells> baked(task_count(cells.size()));
+    std::vector<BakedCells> baked((cells.size() + cells_per_task - 1) / cells_per_task);
     progress.begin("casting rays that may have changed", static_cast<std::int64_t>(cells.size()));
-    for_cells(cells.size(), bake.set, bake.options.threads, [&](CastingRoom& room, std::size_t cell) {
-        BakedCells& own = baked[cell / cells_per_task];
-        if (const std::optional<MaskPair> parts = cast_cell(bake, cells[cell], room, own.rays)) {
-            own.cells.push_back(cell);
-            add_cell(*parts, bake.options, own.masks);
+    parallel_for(static_cast<std::int64_t>(baked.size()), bake.options.threads, [&](std::int64_t task) {
+        CastingRoom room(bake.set);
+        BakedCells& own = baked[static_cast<std::size_t>(task)];
+        const std::size_t begin = static_cast<std::size_t>(task) * cells_per_task;
+        for (std::size_t cell = begin; cell < std::min(begin + cells_per_task, cells.size()); ++cell) {
+            if (const std::optional<MaskPair> parts = cast_cell(bake, cells[cell], room, own.rays)) {
+                own.cells.push_back(cell);
+                add_cell(*parts, bake.options, own.masks);
+            }
+            progress.advance();
         }
-        progress.advance();
     });
     return baked;
 }
@@ -236,21 +229,7 @@ std::shared_ptr<const FixedField> bake_fixed(const Scene& scene, const BakeOptio
     fixed->lift_m = lift_m(*embree);
     fixed->points = place_points(scene, shape, with_share(options, fixed->changing_share), progress, PartChoice::fixed);
     const CellPoints& points = fixed->points;
-    const RaySet set = make_ray_set(options.rays);
-    const std::size_t words = words_of_rays(options.rays);
-    fixed->blocked.resize(points.points.size() * words);
-    FinishedMasks masks = make_finished_masks(points.cells.size(), shape);
-    progress.begin("casting rays from what stands still", static_cast<std::int64_t>(points.points.size()));
-    for_cells(points.cells.size(), set, options.threads, [&](CastingRoom& room, std::size_t cell) {
-        MaskPair parts;
-        for (std::uint32_t k = points.first[cell]; k < points.first[cell + 1]; ++k) {
-            cast_from(*embree, set, points.points[k], casting_size(options), ray_seed(options), room, parts.visible,
-                      parts.occluded);
-            std::copy_n(room.blocked.begin(), words, &fixed->blocked[k * words]);
-        }
-        finish_cell(parts, options, cell, masks);
-        progress.advance(points.first[cell + 1] - points.first[cell]);
-    });
+    FinishedMasks masks = cast_cells(*embree, points, options, progress, &fixed->blocked);
     assemble(points, masks, fixed->field);
     fixed->mask_numbers = numbers_of(fixed->field);
     fixed->labels = std::move(masks.labels);
