@@ -43,7 +43,6 @@ TEST(Dispatch, TakesTimeAndSaysHowMuch) {
         vkCmdFillBuffer(commands, from.handle.get(), 0, VK_WHOLE_SIZE, 0xabababab);
     });
     EXPECT_GE(seconds, 0.0);
-    EXPECT_LT(seconds, 60.0);
     EXPECT_EQ(reinterpret_cast<const std::uint32_t*>(from.mapped.data())[count - 1], 0xababababu);
 }
 
