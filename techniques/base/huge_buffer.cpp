@@ -44,6 +44,11 @@ HugeBuffer allocate_huge(std::size_t count) {
     return {{aligned, count}, owner};
 }
 
+HugeBuffer reuse_huge(const HugeBuffer& spare, std::size_t count) {
+    if (spare.words.size() < count) return allocate_huge(count);
+    return {spare.words.first(count), spare.owner};
+}
+
 std::uint64_t available_memory_bytes() { return proc_bytes("/proc/meminfo", "MemAvailable:"); }
 
 std::uint64_t peak_memory_bytes() { return proc_bytes("/proc/self/status", "VmHWM:"); }

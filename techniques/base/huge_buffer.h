@@ -18,6 +18,10 @@ struct HugeBuffer {
 /// `count` zero words, aligned to 2 MiB. EnvironmentError, with the size, where there is not that much memory.
 HugeBuffer allocate_huge(std::size_t count);
 
+/// `count` words with anything in them: those of `spare`, which nobody needs any more, where these are enough; else
+/// new ones. New memory costs the system, which clears it, as much as writing it.
+HugeBuffer reuse_huge(const HugeBuffer& spare, std::size_t count);
+
 /// Bytes of memory that the machine can still give without swapping.
 std::uint64_t available_memory_bytes();
 

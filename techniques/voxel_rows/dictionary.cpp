@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <utility>
 
 #include "techniques/base/parallel.h"
 #include "techniques/base/random.h"
@@ -190,7 +191,7 @@ template <int length>
 MappedCounts map_rows(RowDeals<length> rows, const std::vector<RowBits<length>>& dictionary, int resolution,
                       const DictionaryOptions& options, std::span<std::uint32_t> index_of_id, Progress& progress) {
     progress.begin("mapping rows to the dictionary", static_cast<std::int64_t>(rows.deals()));
-    const SortedRows<length> sorted = sort_rows(dictionary, 0, options.threads, progress);
+    const SortedRows<length> sorted = sort_rows(dictionary, resolution, 0, options.threads, progress);
     Mapping<length> mapping{options, resolution, sorted, std::vector<std::uint32_t>(dictionary.size()), index_of_id};
     for (std::uint32_t place = 0; place < sorted.index.size(); ++place)
         mapping.place_of_index[sorted.index[place]] = place;
@@ -201,10 +202,12 @@ MappedCounts map_rows(RowDeals<length> rows, const std::vector<RowBits<length>>&
     const double mean =
         static_cast<double>(total.differing_lights) / static_cast<double>(std::max<std::size_t>(1, rows.rows()));
     const auto least = static_cast<std::uint32_t>(least_distance * mean) + 1;
+    HugeBuffer spare;
     for (const int shift : later_shifts) {
-        rows = deal_again(rows, shift, least, options.threads, progress);
+        auto dealt = deal_again(rows, shift, least, options.threads, progress, spare);
+        spare = std::exchange(rows, std::move(dealt)).words;
         progress.begin("looking for nearer rows", static_cast<std::int64_t>(rows.deals()));
-        const SortedRows<length> moved = sort_rows(dictionary, shift, options.threads, progress);
+        const SortedRows<length> moved = sort_rows(dictionary, resolution, shift, options.threads, progress);
         const Mapping<length> again{options, resolution, moved, {}, index_of_id};
         total += map_deals(rows.deals(), options.threads, progress,
                            [&](std::size_t deal) { return look_again(again, rows, deal, progress); });
@@ -252,7 +255,9 @@ RowArray compress_rows(const RowArray& array, const DictionaryOptions& options, 
     made.build_seconds = array.build_seconds;
     made.fragments = array.fragments;
     RowHistogram<length> histogram = count_rows<length>(array, options.threads, progress);
-    RowDeals<length> rows = deal_rows(std::move(histogram.parts), options.threads, progress);
+    RowDeals<length> rows = deal_rows(histogram.parts, options.threads, progress, std::exchange(histogram.spare, {}));
+    histogram.parts.clear();
+    histogram.memory.clear();
     const std::vector<ChosenRow<length>> chosen = choose_rows(rows, options, progress);
     std::vector<RowBits<length>> dictionary;
     for (const ChosenRow<length>& row : chosen) dictionary.push_back(row.row);

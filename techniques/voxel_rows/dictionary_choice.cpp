@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "techniques/base/parallel.h"
+#include "techniques/base/parallel_sort.h"
 
 namespace sightlines::voxel_rows {
 namespace {
@@ -64,21 +65,60 @@ HugeBuffer worth_of_rows(const RowDeals<length>& rows, const DictionaryOptions& 
     return worth;
 }
 
+/// Some of the deals, for one thread.
+struct Slice {
+    std::size_t first_row, end_row;
+};
+
+/// All rows, in so many slices that no thread waits long for another.
+template <int length>
+std::vector<Slice> slices_of(const RowDeals<length>& rows) {
+    constexpr std::size_t count = 32;
+    std::vector<Slice> slices;
+    for (std::size_t k = 0; k < count; ++k) slices.push_back({rows.rows() * k / count, rows.rows() * (k + 1) / count});
+    return slices;
+}
+
 /// The lowest worth among the n worthiest rows, as far as worths below 2^16 tell.
-std::uint32_t least_worth(std::span<const std::uint32_t> worth, std::uint32_t n, const Progress& progress) {
+std::uint32_t least_worth(std::span<const std::uint32_t> worth, std::span<const Slice> slices,
+                          const DictionaryOptions& options, const Progress& progress) {
     constexpr std::uint32_t highest = (1u << 16u) - 1;
-    std::vector<std::uint64_t> rows_of_worth(highest + 1);
-    for (std::size_t place = 0; place < worth.size(); ++place) {
-        if (place % (1u << 20u) == 0) progress.check();
-        ++rows_of_worth[std::min(worth[place], highest)];
-    }
+    std::vector<std::vector<std::uint32_t>> rows_of_worth(slices.size());
+    parallel_for(static_cast<std::int64_t>(slices.size()), options.threads, [&](std::int64_t index) {
+        progress.check();
+        const Slice& slice = slices[static_cast<std::size_t>(index)];
+        auto& own = rows_of_worth[static_cast<std::size_t>(index)];
+        own.resize(highest + 1);
+        for (std::size_t place = slice.first_row; place < slice.end_row; ++place)
+            ++own[std::min(worth[place], highest)];
+    });
     std::uint64_t rows = 0;
     std::uint32_t least = highest;
     for (; least > 1; --least) {
-        rows += rows_of_worth[least];
-        if (rows >= n) break;
+        for (const auto& of_slice : rows_of_worth) rows += of_slice[least];
+        if (rows >= options.rows) break;
     }
     return least;
+}
+
+/// All rows that are worth at least so much.
+template <int length>
+std::vector<ChosenRow<length>> rows_worth(std::uint32_t least, const RowDeals<length>& rows,
+                                          std::span<const std::uint32_t> worth, std::span<const Slice> slices,
+                                          const DictionaryOptions& options, const Progress& progress) {
+    std::vector<std::vector<ChosenRow<length>>> of_slice(slices.size());
+    parallel_for(static_cast<std::int64_t>(slices.size()), options.threads, [&](std::int64_t index) {
+        progress.check();
+        const Slice& slice = slices[static_cast<std::size_t>(index)];
+        for (std::size_t place = slice.first_row; place < slice.end_row; ++place) {
+            if (worth[place] < least) continue;
+            const DealtRow<length> row = rows[place];
+            of_slice[static_cast<std::size_t>(index)].push_back({row.row, hash_row(row.row), row.count, worth[place]});
+        }
+    });
+    std::vector<ChosenRow<length>> taken;
+    for (const auto& own : of_slice) taken.insert(taken.end(), own.begin(), own.end());
+    return taken;
 }
 
 }  // namespace
@@ -88,18 +128,13 @@ std::vector<ChosenRow<length>> choose_rows(const RowDeals<length>& rows, const D
                                            Progress& progress) {
     progress.begin("choosing the dictionary", static_cast<std::int64_t>(rows.deals()));
     const HugeBuffer worth = worth_of_rows(rows, options, progress);
-    const std::uint32_t least = least_worth(worth.words, options.rows, progress);
-    std::vector<ChosenRow<length>> chosen;
-    for (std::size_t place = 0; place < rows.rows(); ++place) {
-        if (place % (1u << 20u) == 0) progress.check();
-        if (worth.words[place] < least) continue;
-        const DealtRow<length> row = rows[place];
-        chosen.push_back({row.row, hash_row(row.row), row.count, worth.words[place]});
-    }
-    std::uint32_t compared = 0;
+    const std::vector<Slice> slices = slices_of(rows);
+    const std::uint32_t least = least_worth(worth.words, slices, options, progress);
+    std::vector<ChosenRow<length>> chosen = rows_worth(least, rows, worth.words, slices, options, progress);
+    // Sorting takes longer than whoever cancels waits.
     const auto by = [&](auto number) {
-        return [&, number](const ChosenRow<length>& a, const ChosenRow<length>& b) {
-            if (++compared % (1u << 16u) == 0) progress.check();  // sorting takes longer than whoever cancels waits
+        return [&progress, number](const ChosenRow<length>& a, const ChosenRow<length>& b) {
+            progress.check();
             if (a.*number != b.*number) return a.*number > b.*number;
             return a.hash != b.hash ? a.hash < b.hash : a.row < b.row;
         };
@@ -108,7 +143,7 @@ std::vector<ChosenRow<length>> choose_rows(const RowDeals<length>& rows, const D
         std::ranges::nth_element(chosen, chosen.begin() + options.rows, by(&ChosenRow<length>::worth));
         chosen.resize(options.rows);
     }
-    std::ranges::sort(chosen, by(&ChosenRow<length>::count));
+    sort_in_parallel(chosen, options.threads, by(&ChosenRow<length>::count));
     return chosen;
 }
 

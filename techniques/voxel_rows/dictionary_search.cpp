@@ -19,7 +19,7 @@ using Tag = hn::CappedTag<std::uint32_t, rows_at_once>;
 using Vector = hn::Vec<Tag>;
 constexpr std::size_t lanes = hn::MaxLanes(Tag());
 template <int length>
-constexpr std::size_t block_words = 2 * static_cast<std::size_t>(length) * lanes;
+constexpr std::size_t way_words = 2 * static_cast<std::size_t>(length) * lanes;
 
 constexpr std::size_t rows_between_checks = 1u << 14u;
 constexpr std::size_t probes_between_checks = 4;
@@ -32,6 +32,17 @@ bool comes_before(const RowBits<length>& a, const RowBits<length>& b, int shift)
     return by_2 != 0 ? by_2 < 0 : a < b;
 }
 
+/// Calls body(place) for all places below `count`.
+template <class Body>
+void for_each_place(std::size_t count, int threads, const Progress& progress, const Body& body) {
+    const std::size_t chunks = (count + rows_between_checks - 1) / rows_between_checks;
+    parallel_for(static_cast<std::int64_t>(chunks), threads, [&](std::int64_t chunk) {
+        progress.check();
+        const std::size_t first = static_cast<std::size_t>(chunk) * rows_between_checks;
+        for (std::size_t place = first; place < std::min(count, first + rows_between_checks); ++place) body(place);
+    });
+}
+
 /// Fills rows, prefix, fine and index.
 template <int length>
 void put_in_order(const std::vector<RowBits<length>>& rows, SortedRows<length>& sorted, int threads,
@@ -40,24 +51,28 @@ void put_in_order(const std::vector<RowBits<length>>& rows, SortedRows<length>& 
         std::uint64_t prefix, fine;
         std::uint32_t index;
     };
-    std::vector<Numbered> order;
-    for (const RowBits<length>& row : rows) {
-        if (order.size() % rows_between_checks == 0) progress.check();
-        const RowBits<length> moved = shifted(row, sorted.shift);
-        order.push_back({coarse_prefix(moved), fine_key(moved), static_cast<std::uint32_t>(order.size())});
-    }
+    std::vector<Numbered> order(rows.size());
+    for_each_place(rows.size(), threads, progress, [&](std::size_t index) {
+        const RowBits<length> moved = shifted(rows[index], sorted.shift);
+        order[index] = {coarse_prefix(moved), fine_key(moved), static_cast<std::uint32_t>(index)};
+    });
     sort_in_parallel(order, threads, [&](const Numbered& a, const Numbered& b) {
         progress.check();
         if (a.prefix != b.prefix) return a.prefix < b.prefix;
         if (a.fine != b.fine) return a.fine < b.fine;
         return comes_before(rows[a.index], rows[b.index], sorted.shift);
     });
-    for (const Numbered& each : order) {
-        sorted.rows.push_back(rows[each.index]);
-        sorted.prefix.push_back(each.prefix);
-        sorted.fine.push_back(each.fine);
-        sorted.index.push_back(each.index);
-    }
+    sorted.rows.resize(rows.size());
+    sorted.prefix.resize(rows.size());
+    sorted.fine.resize(rows.size());
+    sorted.index.resize(rows.size());
+    for_each_place(rows.size(), threads, progress, [&](std::size_t place) {
+        const Numbered& each = order[place];
+        sorted.rows[place] = rows[each.index];
+        sorted.prefix[place] = each.prefix;
+        sorted.fine[place] = each.fine;
+        sorted.index[place] = each.index;
+    });
 }
 
 template <int length>
@@ -80,26 +95,29 @@ void find_groups(SortedRows<length>& sorted, int step, const Progress& progress)
     }
 }
 
+/// Writes one lane of one way of a block.
 template <int length>
-void fill_blocks(SortedRows<length>& sorted, const Progress& progress) {
-    sorted.blocks = allocate_huge((sorted.rows.size() + lanes - 1) / lanes * block_words<length>);
-    for (std::size_t place = 0; place < sorted.rows.size(); ++place) {
-        if (place % rows_between_checks == 0) progress.check();
-        const RowBits<length>&up = sorted.rows[place], down = reversed(up);
-        std::uint32_t* lane = &sorted.blocks.words[place / lanes * block_words<length> + place % lanes];
-        for (std::size_t word = 0; word < length; ++word) {
-            lane[word * lanes] = up.words[word];
-            lane[(length + word) * lanes] = down.words[word];
-        }
+void fill_lane(const RowBits<length>& row, std::uint32_t end, std::uint32_t* lane) {
+    std::uint32_t next = end;
+    for (std::size_t word = length; word-- > 0;) {
+        const std::uint32_t bits = row.words[word];
+        lane[word * lanes] = bits;
+        lane[(length + word) * lanes] = next;
+        if (bits != 0)
+            next = static_cast<std::uint32_t>(32 * word) + static_cast<std::uint32_t>(std::countr_zero(bits));
     }
 }
 
-/// A row in each lane, as rays one way meet it.
 template <int length>
-struct LaneRows {
-    std::array<Vector, length> words;
-    std::array<Vector, length + 1> first_from;  ///< the first set bit of this word and those behind it; else the end
-};
+void fill_blocks(SortedRows<length>& sorted, int resolution, const Progress& progress) {
+    sorted.blocks = allocate_huge((sorted.rows.size() + lanes - 1) / lanes * 2 * way_words<length>);
+    for (std::size_t place = 0; place < sorted.rows.size(); ++place) {
+        if (place % rows_between_checks == 0) progress.check();
+        std::uint32_t* lane = &sorted.blocks.words[place / lanes * 2 * way_words<length> + place % lanes];
+        fill_lane(sorted.rows[place], static_cast<std::uint32_t>(resolution), lane);
+        fill_lane(reversed(sorted.rows[place]), RowProbes<length>::down_end, lane + way_words<length>);
+    }
+}
 
 /// The clear bits below the lowest set one: 32 where none is set.
 HWY_INLINE Vector clear_below(Vector bits) {
@@ -107,27 +125,14 @@ HWY_INLINE Vector clear_below(Vector bits) {
     return hn::PopulationCount(hn::AndNot(bits, hn::Sub(bits, hn::Set(tag, 1))));
 }
 
+/// The first set bit from `start` on of each lane's row, one way; the end where there is none.
 template <int length>
-HWY_INLINE LaneRows<length> load_lanes(const std::uint32_t* words, std::uint32_t end) {
-    const Tag tag;
-    LaneRows<length> rows;
-    rows.first_from[length] = hn::Set(tag, end);
-    for (std::size_t k = length; k-- > 0;) {
-        const Vector bits = rows.words[k] = hn::LoadU(tag, words + k * lanes);
-        const Vector place = hn::Add(clear_below(bits), hn::Set(tag, static_cast<std::uint32_t>(32 * k)));
-        rows.first_from[k] = hn::IfThenElse(hn::Eq(bits, hn::Zero(tag)), rows.first_from[k + 1], place);
-    }
-    return rows;
-}
-
-/// The first set bit from `start` on of each lane's row; the end where there is none.
-template <int length>
-HWY_INLINE Vector next_set(const LaneRows<length>& rows, std::uint32_t start) {
+HWY_INLINE Vector next_set(const std::uint32_t* way, std::uint32_t start) {
     const Tag tag;
     const std::uint32_t word = start / 32;
-    const Vector bits = hn::And(rows.words[word], hn::Set(tag, ~0u << (start % 32)));
+    const Vector bits = hn::And(hn::LoadU(tag, way + word * lanes), hn::Set(tag, ~0u << (start % 32)));
     const Vector place = hn::Add(clear_below(bits), hn::Set(tag, 32 * word));
-    return hn::IfThenElse(hn::Eq(bits, hn::Zero(tag)), rows.first_from[word + 1], place);
+    return hn::IfThenElse(hn::Eq(bits, hn::Zero(tag)), hn::LoadU(tag, way + (length + word) * lanes), place);
 }
 
 /// light_weight of each lane.
@@ -139,12 +144,12 @@ HWY_INLINE Vector light_weights(Vector free_voxels) {
 
 /// Adds how many of the lights one way each lane's row answers differently. Ends early where all lanes exceed `most`.
 template <int length>
-HWY_INLINE Vector add_differing(Vector sum, const Probes<length>& probes, const LaneRows<length>& rows, Vector most) {
+HWY_INLINE Vector add_differing(Vector sum, const Probes<length>& probes, const std::uint32_t* way, Vector most) {
     const Tag tag;
     for (std::size_t k = 0; k < probes.count; ++k) {
         if (k % probes_between_checks == 0 && hn::AllTrue(tag, hn::Gt(sum, most))) break;
         const Probe& probe = probes.probes[k];
-        const Vector free_voxels = hn::Sub(next_set(rows, probe.start), hn::Set(tag, probe.start));
+        const Vector free_voxels = hn::Sub(next_set<length>(way, probe.start), hn::Set(tag, probe.start));
         const Vector ours = light_weights<length>(free_voxels), right = hn::Set(tag, probe.lights);
         sum = hn::Add(sum, hn::Sub(hn::Max(ours, right), hn::Min(ours, right)));
     }
@@ -154,14 +159,15 @@ HWY_INLINE Vector add_differing(Vector sum, const Probes<length>& probes, const 
 }  // namespace
 
 template <int length>
-SortedRows<length> sort_rows(const std::vector<RowBits<length>>& rows, int shift, int threads, Progress& progress) {
+SortedRows<length> sort_rows(const std::vector<RowBits<length>>& rows, int resolution, int shift, int threads,
+                             Progress& progress) {
     SortedRows<length> sorted;
     sorted.shift = shift;
     put_in_order(rows, sorted, threads, progress);
     sorted.groups.resize(rows.size());
     parallel_for(coarsest_step + 1, threads, [&](std::int64_t step) {
         if (step == 0)
-            fill_blocks(sorted, progress);
+            fill_blocks(sorted, resolution, progress);
         else
             find_groups(sorted, static_cast<int>(step), progress);
     });
@@ -214,17 +220,16 @@ Match nearest_in(const SortedRows<length>& sorted, Range range, const RowBits<le
                  const RowProbes<length>& probes, Match best) {
     const Tag tag;
     for (std::size_t first = range.first / lanes * lanes; first < range.first + range.count; first += lanes) {
-        const std::uint32_t* block = &sorted.blocks.words[first / lanes * block_words<length>];
+        const std::uint32_t* up = &sorted.blocks.words[first / lanes * 2 * way_words<length>];
         const Vector most = hn::Set(tag, best.distance.lights);
-        const LaneRows<length> up = load_lanes<length>(block, probes.up_end);
         Vector lights = add_differing(hn::Zero(tag), probes.up, up, most);
         if (hn::AllTrue(tag, hn::Gt(lights, most))) continue;
-        const LaneRows<length> down = load_lanes<length>(block + length * lanes, probes.down_end);
-        lights = add_differing(lights, probes.down, down, most);
+        lights = add_differing(lights, probes.down, up + way_words<length>, most);
         if (hn::AllTrue(tag, hn::Gt(lights, most))) continue;
         Vector voxels = hn::Zero(tag);
         for (std::size_t k = 0; k < length; ++k)
-            voxels = hn::Add(voxels, hn::PopulationCount(hn::Xor(up.words[k], hn::Set(tag, row.words[k]))));
+            voxels = hn::Add(voxels,
+                             hn::PopulationCount(hn::Xor(hn::LoadU(tag, up + k * lanes), hn::Set(tag, row.words[k]))));
         alignas(64) std::array<std::uint32_t, lanes> lane_lights, lane_voxels;
         hn::Store(lights, tag, lane_lights.data());
         hn::Store(voxels, tag, lane_voxels.data());
@@ -238,7 +243,7 @@ Match nearest_in(const SortedRows<length>& sorted, Range range, const RowBits<le
 }
 
 #define SIGHTLINES_FOR_ROW_LENGTH(length)                                                                            \
-    template SortedRows<length> sort_rows(const std::vector<RowBits<length>>&, int, int, Progress&);                 \
+    template SortedRows<length> sort_rows(const std::vector<RowBits<length>>&, int, int, int, Progress&);            \
     template std::uint32_t place_among(const SortedRows<length>&, Range, const RowBits<length>&);                    \
     template std::optional<Matching> find_matching(const SortedRows<length>&, const RowBits<length>&, std::uint32_t, \
                                                    int);                                                             \

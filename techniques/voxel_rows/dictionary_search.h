@@ -48,14 +48,15 @@ struct SortedRows {
     std::vector<std::uint64_t> prefix, fine;               ///< coarse_prefix and fine_key of each, shifted
     std::vector<std::uint32_t> index;                      ///< of each in the dictionary
     std::vector<std::array<Group, coarsest_step>> groups;  ///< each row's own after step 1, 2 ...
-    /// For comparing many at once: [blocks of as many rows as a vector has lanes][up, down][length][lane]; down is the
-    /// reversed row.
+    /// For comparing many at once: [blocks of as many rows as a vector has lanes][up, down][word, next][length][lane];
+    /// down is the reversed row, next the first set bit behind the word, or the row's end.
     HugeBuffer blocks;
 };
 
-/// `rows`: of the dictionary, the most frequent first.
+/// `rows`: of the dictionary, the most frequent first, of so many voxels each.
 template <int length>
-SortedRows<length> sort_rows(const std::vector<RowBits<length>>& rows, int shift, int threads, Progress& progress);
+SortedRows<length> sort_rows(const std::vector<RowBits<length>>& rows, int resolution, int shift, int threads,
+                             Progress& progress);
 
 /// Where `row` is among the sorted ones, or would be: in `within`, or at its end.
 template <int length>

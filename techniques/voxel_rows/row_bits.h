@@ -14,7 +14,12 @@ template <int length>
 struct RowBits {
     std::array<std::uint32_t, static_cast<std::size_t>(length)> words{};
 
-    bool operator==(const RowBits&) const = default;
+    /// That of std::array calls the C library for every row.
+    bool operator==(const RowBits& other) const {
+        std::uint32_t differing = 0;
+        for (std::size_t k = 0; k < words.size(); ++k) differing |= words[k] ^ other.words[k];
+        return differing == 0;
+    }
     auto operator<=>(const RowBits&) const = default;
 };
 

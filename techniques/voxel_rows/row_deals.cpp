@@ -43,7 +43,8 @@ struct Sources {
 };
 
 template <int length, class Visit>
-RowDeals<length> deal_out(const Sources<Visit>& sources, int shift, int threads, Progress& progress) {
+RowDeals<length> deal_out(const Sources<Visit>& sources, int shift, int threads, Progress& progress,
+                          const HugeBuffer& spare) {
     progress.begin("dealing out distinct rows", 3 * static_cast<std::int64_t>(sources.count));
     const auto visit_all = [&](const auto& take) {
         parallel_for(static_cast<std::int64_t>(sources.count), threads, [&](std::int64_t index) {
@@ -58,7 +59,7 @@ RowDeals<length> deal_out(const Sources<Visit>& sources, int shift, int threads,
     const std::size_t sampled = std::bit_floor(sources.rows / (most * samples_per_deal) + 1) - 1;
     std::vector<std::vector<std::uint64_t>> sample(sources.count);
     visit_all([&](std::size_t source, const DealtRow<length>& row) {
-        if ((hash_row(row.row) & sampled) == 0) sample[source].push_back(prefix_of(row.row));
+        if ((row.id * 0x9e3779b9u >> 8u & sampled) == 0) sample[source].push_back(prefix_of(row.row));
     });
     std::vector<std::uint64_t> prefixes;
     for (const auto& of_source : sample) prefixes.insert(prefixes.end(), of_source.begin(), of_source.end());
@@ -66,9 +67,13 @@ RowDeals<length> deal_out(const Sources<Visit>& sources, int shift, int threads,
     dealt.cuts = find_cuts(std::move(prefixes), most);
 
     const std::size_t deals = dealt.cuts.size() + 1;
-    const auto deal_of = [&](const RowBits<length>& row) { return cuts_up_to(dealt.cuts, prefix_of(row)); };
     std::vector<std::uint32_t> places(sources.count * deals);
-    visit_all([&](std::size_t source, const DealtRow<length>& row) { ++places[source * deals + deal_of(row.row)]; });
+    std::vector<std::vector<std::uint16_t>> deal_of_row(sources.count);  // in the order in which they are visited
+    visit_all([&](std::size_t source, const DealtRow<length>& row) {
+        const std::size_t deal = cuts_up_to(dealt.cuts, prefix_of(row.row));
+        deal_of_row[source].push_back(static_cast<std::uint16_t>(deal));
+        ++places[source * deals + deal];
+    });
     std::uint32_t place = 0;
     for (std::size_t deal = 0; deal < deals; ++deal) {
         dealt.first.push_back(place);
@@ -76,9 +81,11 @@ RowDeals<length> deal_out(const Sources<Visit>& sources, int shift, int threads,
             place += std::exchange(places[source * deals + deal], place);
     }
     dealt.first.push_back(place);
-    dealt.words = allocate_huge(std::size_t{place} * dealt.stride);
+    dealt.words = reuse_huge(spare, std::size_t{place} * dealt.stride);
+    std::vector<std::size_t> visited(sources.count);
     visit_all([&](std::size_t source, const DealtRow<length>& row) {
-        std::uint32_t* to = &dealt.words.words[places[source * deals + deal_of(row.row)]++ * dealt.stride];
+        const std::size_t deal = deal_of_row[source][visited[source]++];
+        std::uint32_t* to = &dealt.words.words[places[source * deals + deal]++ * dealt.stride];
         to = std::ranges::copy(row.row.words, to).out;
         *to++ = row.count;
         *to++ = row.id;
@@ -90,30 +97,33 @@ RowDeals<length> deal_out(const Sources<Visit>& sources, int shift, int threads,
 }  // namespace
 
 template <int length>
-RowDeals<length> deal_rows(std::vector<DistinctRows<length>> parts, int threads, Progress& progress) {
+RowDeals<length> deal_rows(const std::vector<DistinctRows<length>>& parts, int threads, Progress& progress,
+                           const HugeBuffer& spare) {
     std::size_t rows = 0;
-    for (const DistinctRows<length>& part : parts) rows += part.rows.size();
+    for (const DistinctRows<length>& part : parts) rows += part.size();
     const auto visit = [&](std::size_t index, const auto& take) {
         const DistinctRows<length>& part = parts[index];
-        for (std::uint32_t k = 0; k < part.rows.size(); ++k)
-            take(DealtRow<length>{part.rows[k], part.counts[k], part.first_id + k, 0});
+        for (std::uint32_t k = 0; k < part.size(); ++k)
+            take(DealtRow<length>{part[k], part.counts[k], part.first_id + k, 0});
     };
-    return deal_out<length>(Sources<decltype(visit)>{parts.size(), rows, visit}, 0, threads, progress);
+    return deal_out<length>(Sources<decltype(visit)>{parts.size(), rows, visit}, 0, threads, progress, spare);
 }
 
 template <int length>
 RowDeals<length> deal_again(const RowDeals<length>& dealt, int shift, std::uint32_t least_distance, int threads,
-                            Progress& progress) {
+                            Progress& progress, const HugeBuffer& spare) {
     const auto visit = [&](std::size_t deal, const auto& take) {
         for (std::size_t place = dealt.first[deal]; place < dealt.first[deal + 1]; ++place)
             if (const DealtRow<length> row = dealt[place]; row.distance >= least_distance) take(row);
     };
-    return deal_out<length>(Sources<decltype(visit)>{dealt.deals(), dealt.rows(), visit}, shift, threads, progress);
+    return deal_out<length>(Sources<decltype(visit)>{dealt.deals(), dealt.rows(), visit}, shift, threads, progress,
+                            spare);
 }
 
-#define SIGHTLINES_FOR_ROW_LENGTH(length)                                                   \
-    template RowDeals<length> deal_rows(std::vector<DistinctRows<length>>, int, Progress&); \
-    template RowDeals<length> deal_again(const RowDeals<length>&, int, std::uint32_t, int, Progress&);
+#define SIGHTLINES_FOR_ROW_LENGTH(length)                                                                             \
+    template RowDeals<length> deal_rows(const std::vector<DistinctRows<length>>&, int, Progress&, const HugeBuffer&); \
+    template RowDeals<length> deal_again(const RowDeals<length>&, int, std::uint32_t, int, Progress&,                 \
+                                         const HugeBuffer&);
 SIGHTLINES_FOR_ROW_LENGTH(1)
 SIGHTLINES_FOR_ROW_LENGTH(2)
 SIGHTLINES_FOR_ROW_LENGTH(4)

@@ -88,13 +88,15 @@ struct RowDeals {
     std::uint32_t& distance(std::size_t place) const { return words.words[place * stride + stride - 1]; }
 };
 
-/// Takes the rows out of the histogram's parts; distances are 0. The same for any number of threads.
+/// The rows of the histogram's parts, in `spare` where that is large enough; distances are 0. The same for any number
+/// of threads.
 template <int length>
-RowDeals<length> deal_rows(std::vector<DistinctRows<length>> parts, int threads, Progress& progress);
+RowDeals<length> deal_rows(const std::vector<DistinctRows<length>>& parts, int threads, Progress& progress,
+                           const HugeBuffer& spare = {});
 
-/// Deals those out again whose distance is at least `least_distance`, shifted by `shift`.
+/// Deals those out again whose distance is at least `least_distance`, shifted by `shift`, in `spare` as above.
 template <int length>
 RowDeals<length> deal_again(const RowDeals<length>& dealt, int shift, std::uint32_t least_distance, int threads,
-                            Progress& progress);
+                            Progress& progress, const HugeBuffer& spare = {});
 
 }  // namespace sightlines::voxel_rows

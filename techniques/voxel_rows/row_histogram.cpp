@@ -11,7 +11,7 @@ namespace sightlines::voxel_rows {
 namespace {
 
 constexpr std::size_t most_parts = 4096;
-constexpr std::size_t parts_per_sweep = 512;  ///< dealt out at once: their open lines stay in the second-level cache
+constexpr std::size_t parts_per_sweep = 1024;  ///< dealt out at once: their open lines stay in the second-level cache
 constexpr std::size_t rows_per_chunk = 1u << 18u;  ///< at most 512 chunks
 
 /// How the work is cut, a function of the number of rows alone.
@@ -42,13 +42,17 @@ struct Padding {
     }
 };
 
-/// Rows of one sweep, part after part, and where they come from. Then `row` gives way to the id inside the part.
+/// Rows of one sweep, part after part, and where they come from. When a part has been counted, its distinct rows and
+/// their counts lie at its beginning, and each row's id in it beside the row's number.
 template <int length>
 struct DealtRows {
-    HugeBuffer bits;                 ///< [capacity * length]
-    HugeBuffer number;               ///< [capacity] of the row in the array
-    HugeBuffer id;                   ///< [capacity] inside its part
-    std::vector<std::size_t> first;  ///< [parts in a sweep + 1]
+    HugeBuffer memory;                         ///< of the rest
+    std::span<std::uint32_t> bits;             ///< [capacity * length]
+    std::span<std::uint32_t> number;           ///< [capacity] of the row in the array
+    std::span<std::uint32_t> id;               ///< [capacity] inside its part
+    std::span<std::uint32_t> count;            ///< [capacity]
+    std::vector<std::size_t> first;            ///< [parts in a sweep + 1]
+    std::vector<std::uint32_t> distinct = {};  ///< [parts in a sweep]
 };
 
 /// counts[chunk * parts + part], without blank rows and padding; sums up the blank ones.
@@ -108,14 +112,14 @@ void deal(const RowArray& array, const Cut& cut, std::size_t sweep, std::vector<
             const std::size_t part = cut.part_of(hash_row(bits)) - sweep * in_sweep;
             if (part >= in_sweep) continue;  // of another sweep
             const std::size_t place = next[part]++;
-            std::memcpy(&dealt.bits.words[place * length], bits.words.data(), sizeof bits);
-            dealt.number.words[place] = static_cast<std::uint32_t>(row);
+            std::memcpy(&dealt.bits[place * length], bits.words.data(), sizeof bits);
+            dealt.number[place] = static_cast<std::uint32_t>(row);
         }
         progress.advance();
     });
 }
 
-/// Open addressing from the hash to ids; grows with what it holds.
+/// Open addressing from the hash to ids; grows with what it holds, and stays as large for the next part.
 struct IdTable {
     struct Slot {
         std::uint32_t hash = 0, id_plus_1 = 0;  ///< 0: free
@@ -123,6 +127,7 @@ struct IdTable {
     std::vector<Slot> slots = std::vector<Slot>(1024);
 
     std::size_t mask() const { return slots.size() - 1; }
+    void clear() { std::ranges::fill(slots, Slot{}); }
     void grow() {
         std::vector<Slot> old(2 * slots.size());
         old.swap(slots);
@@ -137,41 +142,77 @@ struct IdTable {
 
 /// Finds the distinct rows among those dealt to one part and gives each of these its id inside the part.
 template <int length>
-DistinctRows<length> count_part(DealtRows<length>& dealt, std::size_t begin, std::size_t end,
-                                const Progress& progress) {
+void count_part(DealtRows<length>& dealt, std::size_t part, IdTable& table, const Progress& progress) {
     constexpr std::size_t rows_between_checks = 1u << 18u;
-    DistinctRows<length> part;
-    IdTable table;
+    const std::size_t begin = dealt.first[part], end = dealt.first[part + 1];
+    std::uint32_t* const distinct_bits = dealt.bits.data() + begin * length;
+    std::uint32_t distinct = 0;
+    table.clear();
     for (std::size_t place = begin; place < end; ++place) {
         if ((place - begin) % rows_between_checks == 0) progress.check();
-        const auto bits = load_row<length>(&dealt.bits.words[place * length]);
+        const auto bits = load_row<length>(&dealt.bits[place * length]);
         const auto hash = static_cast<std::uint32_t>(hash_row(bits));
         std::size_t at = hash & table.mask();
         for (;; at = (at + 1) & table.mask()) {
-            const IdTable::Slot& slot = table.slots[at];
-            if (slot.id_plus_1 == 0 || (slot.hash == hash && part.rows[slot.id_plus_1 - 1] == bits)) break;
+            const auto [hash_there, id_plus_1] = table.slots[at];
+            if (id_plus_1 == 0) break;
+            if (hash_there == hash && load_row<length>(distinct_bits + (id_plus_1 - 1) * length) == bits) break;
         }
-        IdTable::Slot& slot = table.slots[at];
-        const std::uint32_t id =
-            slot.id_plus_1 == 0 ? static_cast<std::uint32_t>(part.rows.size()) : slot.id_plus_1 - 1;
-        dealt.id.words[place] = id;
-        if (id < part.rows.size()) {
-            ++part.counts[id];
+        const bool is_new = table.slots[at].id_plus_1 == 0;
+        const std::uint32_t id = is_new ? distinct : table.slots[at].id_plus_1 - 1;
+        dealt.id[place] = id;
+        if (!is_new) {
+            ++dealt.count[begin + id];
             continue;
         }
-        slot = {hash, id + 1};
-        part.rows.push_back(bits);
-        part.counts.push_back(1);
-        if (2 * part.rows.size() > table.slots.size()) table.grow();
+        table.slots[at] = {hash, id + 1};
+        std::memcpy(distinct_bits + std::size_t{id} * length, bits.words.data(), sizeof bits);  // read already
+        dealt.count[begin + id] = 1;
+        if (2 * ++distinct > table.slots.size()) table.grow();
     }
-    return part;
+    dealt.distinct[part] = distinct;
 }
 
-/// Tells the array's rows the ids that the part's rows have been given.
+/// Counts all parts of a sweep.
 template <int length>
-void write_ids(const DealtRows<length>& dealt, std::size_t part, std::uint32_t first_id, HugeBuffer& id_of_row) {
-    for (std::size_t place = dealt.first[part]; place < dealt.first[part + 1]; ++place)
-        id_of_row.words[dealt.number.words[place]] = first_id + dealt.id.words[place];
+void count_parts_of_sweep(DealtRows<length>& dealt, int threads, Progress& progress) {
+    constexpr std::size_t parts_with_one_table = 8;
+    const std::size_t parts = dealt.first.size() - 1;
+    dealt.distinct.assign(parts, 0);
+    parallel_for(static_cast<std::int64_t>((parts + parts_with_one_table - 1) / parts_with_one_table), threads,
+                 [&](std::int64_t index) {
+                     IdTable table;
+                     const std::size_t first = static_cast<std::size_t>(index) * parts_with_one_table;
+                     for (std::size_t part = first; part < std::min(parts, first + parts_with_one_table); ++part) {
+                         count_part(dealt, part, table, progress);
+                         progress.advance();
+                     }
+                 });
+}
+
+/// Copies a sweep's distinct rows to the histogram's parts, and tells the array's rows the ids that they have been
+/// given.
+template <int length>
+void keep_sweep(const DealtRows<length>& dealt, std::size_t sweep, int threads, const Progress& progress,
+                RowHistogram<length>& histogram) {
+    const std::size_t parts = dealt.distinct.size();
+    std::vector<std::size_t> first_row(parts + 1);
+    for (std::size_t part = 0; part < parts; ++part) first_row[part + 1] = first_row[part] + dealt.distinct[part];
+    HugeBuffer& memory = histogram.memory.emplace_back(allocate_huge(first_row.back() * (length + 1)));
+    parallel_for(static_cast<std::int64_t>(parts), threads, [&](std::int64_t index) {
+        progress.check();
+        const auto part = static_cast<std::size_t>(index);
+        const std::size_t begin = dealt.first[part], rows = dealt.distinct[part];
+        const auto kept = memory.words.subspan(first_row[part] * (length + 1), rows * (length + 1));
+        std::ranges::copy(dealt.bits.subspan(begin * length, rows * length), kept.begin());
+        std::ranges::copy(dealt.count.subspan(begin, rows), kept.begin() + static_cast<std::ptrdiff_t>(rows * length));
+        const std::uint32_t first_id = histogram.ids + static_cast<std::uint32_t>(first_row[part]);
+        histogram.parts[sweep * parts + part] = {first_id, kept.first(rows * length), kept.last(rows)};
+        for (std::size_t place = begin; place < dealt.first[part + 1]; ++place)
+            histogram.id_of_row.words[dealt.number[place]] = first_id + dealt.id[place];
+    });
+    histogram.ids += static_cast<std::uint32_t>(first_row.back());
+    histogram.distinct += first_row.back();
 }
 
 /// Memory for the largest sweep.
@@ -180,7 +221,20 @@ DealtRows<length> allocate_dealt(const Cut& cut, const std::vector<std::uint32_t
     std::vector<std::size_t> rows(cut.sweeps);
     for (std::size_t k = 0; k < counts.size(); ++k) rows[k % cut.parts / cut.parts_in_sweep()] += counts[k];
     const std::size_t most = *std::ranges::max_element(rows);
-    return {allocate_huge(most * length), allocate_huge(most), allocate_huge(most), {}};
+    const HugeBuffer memory = allocate_huge(most * (length + 3));
+    const auto of = [&](std::size_t from, std::size_t words) {
+        return memory.words.subspan(most * from, most * words);
+    };
+    return {memory, of(0, length), of(length, 1), of(length + 1, 1), of(length + 2, 1), {}};
+}
+
+/// The blank row, which has the id 0.
+template <int length>
+void keep_blank(std::uint32_t count, RowHistogram<length>& histogram) {
+    const auto words = histogram.memory.emplace_back(allocate_huge(length + 1)).words;
+    words[length] = count;
+    histogram.parts.push_back({0, words.first(length), words.last(1)});
+    ++histogram.distinct;
 }
 
 }  // namespace
@@ -200,27 +254,13 @@ RowHistogram<length> count_rows(const RowArray& array, int threads, Progress& pr
     for (std::size_t sweep = 0; sweep < cut.sweeps; ++sweep) {
         dealt.first = places_of(cut, sweep, places);
         deal(array, cut, sweep, places, threads, dealt, progress);
-        const std::size_t in_sweep = cut.parts_in_sweep();
-        const std::span parts = std::span(histogram.parts).subspan(sweep * in_sweep, in_sweep);
-        parallel_for(static_cast<std::int64_t>(in_sweep), threads, [&](std::int64_t index) {
-            const auto part = static_cast<std::size_t>(index);
-            parts[part] = count_part(dealt, dealt.first[part], dealt.first[part + 1], progress);
-            progress.advance();
-        });
-        for (DistinctRows<length>& part : parts) {
-            part.first_id = histogram.ids;
-            histogram.ids += static_cast<std::uint32_t>(part.rows.size());
-        }
-        parallel_for(static_cast<std::int64_t>(in_sweep), threads, [&](std::int64_t index) {
-            progress.check();
-            const auto part = static_cast<std::size_t>(index);
-            write_ids(dealt, part, parts[part].first_id, histogram.id_of_row);
-        });
+        count_parts_of_sweep(dealt, threads, progress);
+        keep_sweep(dealt, sweep, threads, progress, histogram);
     }
     const auto n = static_cast<std::size_t>(grid.resolution);
     histogram.rows = grid.frames.size() * n * n;
-    if (blank_rows > 0) histogram.parts.push_back({0, {RowBits<length>{}}, {static_cast<std::uint32_t>(blank_rows)}});
-    for (const DistinctRows<length>& part : histogram.parts) histogram.distinct += part.rows.size();
+    histogram.spare = dealt.memory;
+    if (blank_rows > 0) keep_blank(static_cast<std::uint32_t>(blank_rows), histogram);
     return histogram;
 }
 

@@ -1,6 +1,8 @@
 // How differently two rows answer the rays that matter: those that leave a surface of the first towards lights.
 #pragma once
 
+#include <algorithm>
+
 #include "techniques/voxel_rows/row_bits.h"
 
 namespace sightlines::voxel_rows {
@@ -20,13 +22,19 @@ RowBits<length> reversed(const RowBits<length>& row) {
     return back;
 }
 
-/// The first set bit from `start` on; `end` where there is none.
+/// The first set bit from `start` on; `end`, which no set bit is beyond, where there is none. Without branches, which
+/// nobody could foretell: as long as all words were clear, the clear bits below a word's first set one are added.
 template <std::size_t count>
 std::uint32_t next_set(const std::array<std::uint64_t, count>& planes, std::uint32_t start, std::uint32_t end) {
-    std::uint64_t mask = ~std::uint64_t{0} << (start % 64);
-    for (std::size_t k = start / 64; k < count; ++k, mask = ~std::uint64_t{0})
-        if ((planes[k] & mask) != 0) return static_cast<std::uint32_t>(64 * k + std::countr_zero(planes[k] & mask));
-    return end;
+    std::uint32_t place = 0, still_clear = ~0u;
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::uint64_t below = ~(~std::uint64_t{0} << (start % 64));
+        const std::uint64_t left_out = k < start / 64 ? ~std::uint64_t{0} : k == start / 64 ? below : 0;
+        const auto clear = static_cast<std::uint32_t>(std::countr_zero(planes[k] & ~left_out));
+        place += clear & still_clear;
+        still_clear &= 0u - (clear >> 6u);
+    }
+    return std::min(place, end);
 }
 
 template <int length>

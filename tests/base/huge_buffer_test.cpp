@@ -33,6 +33,18 @@ TEST(HugeBuffer, StaysAliveAsLongAsACopyDoes) {
     EXPECT_EQ(kept.words[99], 7u);
 }
 
+TEST(HugeBuffer, IsMadeOfOneThatIsSpareWhereThatIsLargeEnough) {
+    HugeBuffer reused;
+    {
+        const HugeBuffer spare = allocate_huge(100);
+        spare.words[98] = 7;
+        reused = reuse_huge(spare, 99);
+        EXPECT_NE(reuse_huge(spare, 101).words.data(), spare.words.data());
+    }
+    ASSERT_EQ(reused.words.size(), 99u);
+    EXPECT_EQ(reused.words[98], 7u);
+}
+
 TEST(HugeBuffer, ReportsThatThereIsNotThatMuchMemory) {
     EXPECT_THROW(allocate_huge(std::size_t{1} << 50u), EnvironmentError);
 }

@@ -240,8 +240,9 @@ TEST(RowHistogram, CountsAsAMapDoesWhateverTheParts) {
         EXPECT_EQ(histogram.distinct, naive.size());
         std::map<std::uint32_t, Row> row_of_id;
         for (const auto& part : histogram.parts) {
-            for (std::uint32_t k = 0; k < part.rows.size(); ++k) {
-                const Row row(part.rows[k].words.begin(), part.rows[k].words.end());
+            for (std::uint32_t k = 0; k < part.size(); ++k) {
+                const auto bits = part[k];
+                const Row row(bits.words.begin(), bits.words.end());
                 ASSERT_EQ(part.counts[k], naive.at(row));
                 ASSERT_TRUE(row_of_id.emplace(part.first_id + k, row).second);
             }
@@ -297,7 +298,7 @@ std::vector<RowBits<8>> random_rows(std::uint32_t count) {
 TEST(DictionaryMeasure, IsTheSameForManyRowsAtOnce) {
     const std::vector<RowBits<8>> rows = random_rows(300);
     Progress progress;
-    const SortedRows<8> sorted = sort_rows(rows, 0, 1, progress);
+    const SortedRows<8> sorted = sort_rows(rows, 200, 0, 1, progress);
     for (std::uint32_t k = 0; k < rows.size(); k += 3) {
         RowBits<8> row = rows[k];
         row.words[k % 6] ^= 1u << (k % 32);
@@ -325,7 +326,7 @@ TEST(DictionarySearch, FindsEveryRowAndAllThatMatchItDownSampled) {
     }
     Progress progress;
     for (const int shift : {0, 4}) {
-        const SortedRows<8> sorted = sort_rows(rows, shift, 2, progress);
+        const SortedRows<8> sorted = sort_rows(rows, 200, shift, 2, progress);
         const Range all{0, static_cast<std::uint32_t>(rows.size())};
         for (std::uint32_t k = 0; k < rows.size(); ++k) {
             const std::uint32_t place = place_among(sorted, all, rows[k]);
@@ -354,14 +355,18 @@ TEST(DictionarySearch, FindsEveryRowAndAllThatMatchItDownSampled) {
 }
 
 TEST(RowDeals, HoldEveryDistinctRowOnceInTheOrderOfTheirPrefixes) {
-    std::vector<DistinctRows<4>> parts(3);
+    std::array<Row, 3> bits, counts;
     for (std::uint32_t k = 0; k < 100'000; ++k) {
-        DistinctRows<4>& part = parts[k % 3];
-        part.rows.push_back({{random_u32(7, k, 0), 0, random_u32(7, k, 1) & random_u32(7, k, 2), k}});
-        part.counts.push_back(k % 5);
+        for (const std::uint32_t word : {random_u32(7, k, 0), 0u, random_u32(7, k, 1) & random_u32(7, k, 2), k})
+            bits[k % 3].push_back(word);
+        counts[k % 3].push_back(k % 5);
     }
-    parts[1].first_id = static_cast<std::uint32_t>(parts[0].rows.size());
-    parts[2].first_id = parts[1].first_id + static_cast<std::uint32_t>(parts[1].rows.size());
+    std::vector<DistinctRows<4>> parts;
+    for (std::size_t part = 0; part < 3; ++part) {
+        const std::uint32_t first_id =
+            part == 0 ? 0 : parts.back().first_id + static_cast<std::uint32_t>(parts.back().size());
+        parts.push_back({first_id, bits[part], counts[part]});
+    }
     Progress progress;
     const RowDeals<4> dealt = deal_rows(parts, 2, progress);
     EXPECT_GT(dealt.deals(), 2u);
@@ -380,7 +385,7 @@ TEST(RowDeals, HoldEveryDistinctRowOnceInTheOrderOfTheirPrefixes) {
         const std::uint32_t k = row.row.words[3];
         ASSERT_FALSE(seen[k]);
         seen[k] = true;
-        ASSERT_EQ(row.row, parts[k % 3].rows[k / 3]);
+        ASSERT_EQ(row.row, parts[k % 3][k / 3]);
         ASSERT_EQ(row.count, k % 5);
         ASSERT_EQ(row.id, parts[k % 3].first_id + k / 3);
         dealt.distance(place) = k % 2 + 1;
