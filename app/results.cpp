@@ -227,9 +227,19 @@ Shared<SceneModel> Results::tried_model(const Session& session, Progress& progre
     return model_.get(model_part(session), progress, false, [&] { return find_scene(session.scene, progress); });
 }
 
+namespace {
+
+/// What depends on a part of the session and the scene's geometry, not on the time where only lights move.
+Session geometry_key(Session part, const Scene& scene) {
+    if (!anything_moves(scene)) part.time_s = 0.0;
+    return part;
+}
+
+}  // namespace
+
 Session Results::at_rest(Session session) const {
     const auto model = model_.latest(model_part(session));
-    if (model && model->value.duration_s == 0.0) session.time_s = 0.0;
+    if (model && model->value.duration_s == 0.0 && !session.lights.moving) session.time_s = 0.0;
     return session;
 }
 
@@ -241,7 +251,7 @@ Shared<Scene> Results::scene(const Session& session, Progress& progress) {
 
 Shared<std::shared_ptr<const EmbreeScene>> Results::embree(const Session& session, Progress& progress) {
     const auto scene = this->scene(session, progress);
-    return embree_.get(scene_part(at_rest(session)), progress, false,
+    return embree_.get(geometry_key(scene_part(at_rest(session)), scene->value), progress, false,
                        [&] { return build_embree_scene(scene->value, EmbreeUse::reference, threads_, progress); });
 }
 
@@ -295,9 +305,7 @@ Shared<std::vector<Light>> Results::lights(const Session& session, Progress& pro
 }
 
 Session Results::structure_key(const Session& session, const Scene& scene) const {
-    Session part = structure_part(resolved(session));
-    if (!anything_moves(scene)) part.time_s = 0.0;
-    return part;
+    return geometry_key(structure_part(resolved(session)), scene);
 }
 
 Shared<BuiltStructure> Results::structure(const Session& session, Progress& progress) {

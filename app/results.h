@@ -148,8 +148,8 @@ public:
 
 private:
     Session resolved(Session session) const;
-    /// At time 0 where nothing moves in the session's scene, which is known once it is loaded: what is made of the scene
-    /// alone then stays as time goes on, and only what depends on the surroundings' turning is made again.
+    /// At time 0 where neither the scene, once it is loaded and that is known, nor the session's lights change: what is
+    /// made of them then stays as time goes on, and only what depends on the turning surroundings is made again.
     Session at_rest(Session session) const;
     /// What the structure for this scene depends on: not the time where nothing moves.
     Session structure_key(const Session& session, const Scene& scene) const;

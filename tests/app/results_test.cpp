@@ -52,6 +52,20 @@ TEST(Results, KeepWhatStandsStillAsTheSkyTurns) {
     EXPECT_NE(results.picture(later, progress)->value.radiance.pixels, picture->value.radiance.pixels);
 }
 
+TEST(Results, KeepWhatIsMadeOfGeometryAsLightsMove) {
+    Results results(0, Backend::cpu);
+    Progress progress;
+    Session session = small_session();
+    session.lights.moving = true;
+    const auto lights = results.lights(session, progress);
+    const auto embree = results.embree(session, progress);
+    const auto structure = results.structure(session, progress);
+    session.time_s = 2.0;
+    EXPECT_NE(results.lights(session, progress)->value[0].position, lights->value[0].position);
+    EXPECT_EQ(results.embree(session, progress), embree);
+    EXPECT_EQ(results.structure(session, progress), structure);
+}
+
 TEST(Results, TellWhatCompressionChanged) {
     Results results(0, Backend::cpu);
     Progress progress;
