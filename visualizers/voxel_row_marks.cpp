@@ -140,21 +140,30 @@ vec3 object_colour(const Sheet& sheet, const ObjectPicture& object) {
     return object.blocked ? sheet.colours.set_bit : object.rows ? sheet.colours.ink : sheet.colours.muted;
 }
 
+/// Fills the voxels that are in the way, which the larger ones of what stands still may hide.
+void fill_blockers(Sheet& sheet, const VoxelRowPicture& rows) {
+    for (int u = rows.first; u <= rows.last; ++u)
+        if (is_set(rows, {u, rows.v, rows.w}))
+            fill_path(sheet.canvas, cells_outline(sheet, rows, u, u), sheet.colours.set_bit, 0.8f);
+}
+
 /// The bounds of the objects that were asked, and the part of the rows that was looked at.
 void draw_objects(Sheet& sheet, const VoxelRowPicture& picture, const ViewState& state) {
     for (const ObjectPicture& object : picture.objects) {
         const Stroke line{.colour = object_colour(sheet, object), .width = (object.rows ? 0.12f : 0.06f) * sheet.em};
         for_each_edge(object.bounds, [&](vec3 from, vec3 to) { draw_world_line(sheet, from, to, line); });
         if (!object.rows) continue;
+        if (state.row) fill_blockers(sheet, *object.rows);
         if (state.row && state.extent) mark_kept_part(sheet, *object.rows);
         if (state.extent) draw_extent(sheet, *object.rows, false);
     }
 }
 
 /// Says of each object whose row was asked what became of the ray there.
-void label_objects(Sheet& sheet, const VoxelRowPicture& picture) {
+void label_objects(Sheet& sheet, const VoxelRowPicture& picture, const ViewState& state) {
     for (const ObjectPicture& object : picture.objects) {
         if (!object.rows) continue;
+        if (state.row) label_first_blocker(sheet, *object.rows);
         const std::vector<vec3>& box = object.bounds;
         vec3 top = box[0] + 0.5f * (box[1] + box[2] + box[3]);
         for (std::size_t edge = 1; edge <= 3; ++edge) top.y += 0.5f * std::abs(box[edge].y);
@@ -207,7 +216,7 @@ void draw_voxel_row_marks(Canvas& canvas, const VoxelRowPicture& picture, const 
     if (state.extent) draw_extent(sheet, picture, true);
     label_rays(sheet, picture, state);
     if (state.row) label_first_blocker(sheet, picture);
-    label_objects(sheet, picture);
+    label_objects(sheet, picture, state);
 }
 
 float draw_voxel_row_legend(Canvas& canvas, const VoxelRowPicture& picture, const ViewState& state, vec2 at,
