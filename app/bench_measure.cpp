@@ -37,10 +37,11 @@ MeanErrors errors_of(BenchRun& run, const Session& asked, Results& results, Prog
     session.reference = true;
     const std::string key = json_from_session(picture_part(session)).dump();
     const auto known = run.known_errors.find(key);
-    if (known != run.known_errors.end()) return {known->second.first, known->second.second};
-    const auto errors = results.errors(session, progress);
-    run.known_errors[key] = {errors->value.visibility_percent, errors->value.shadow_percent};
-    return {errors->value.visibility_percent, errors->value.shadow_percent};
+    if (known != run.known_errors.end()) return known->second;
+    const ErrorMetrics errors = results.errors(session, progress)->value;
+    const double percent_of_all = 100.0 / static_cast<double>(results.lights(session, progress)->value.size());
+    return run.known_errors[key] = {errors.visibility_percent, errors.shadow_percent,
+                                    percent_of_all * errors.wrong_rays, percent_of_all * errors.uncancelled_rays};
 }
 
 std::uint32_t light_sets(std::uint32_t lights, std::uint32_t enough) {
@@ -53,6 +54,8 @@ MeanErrors mean_errors(BenchRun& run, Session session, std::uint32_t sets, Resul
         const MeanErrors errors = errors_of(run, session, results, progress);
         mean.visibility += errors.visibility / sets;
         mean.shadow += errors.shadow / sets;
+        mean.visibility_of_all += errors.visibility_of_all / sets;
+        mean.shadow_of_all += errors.shadow_of_all / sets;
     }
     return mean;
 }

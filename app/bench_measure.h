@@ -15,6 +15,12 @@ namespace sightlines {
 
 struct FieldScene;  // bench_field.h
 
+/// Errors in percent (ErrorMetrics): of the rays that are asked, and of all lights.
+struct MeanErrors {
+    double visibility = 0.0, shadow = 0.0;
+    double visibility_of_all = 0.0, shadow_of_all = 0.0;
+};
+
 /// What all tables of one run share.
 struct BenchRun {
     Session base;                     ///< picture, seed, camera; the parameters of voxel rows for all tables
@@ -23,7 +29,7 @@ struct BenchRun {
     bool quick = false;
     int repetitions = 3;
     std::function<void(const std::string&)> say;  ///< what is being measured; may be empty
-    std::map<std::string, std::pair<double, double>> known_errors;
+    std::map<std::string, MeanErrors> known_errors;
     std::map<std::string, std::shared_ptr<const FieldScene>> field_scenes;  ///< by name, for the visibility field
 };
 
@@ -31,11 +37,6 @@ struct BenchRun {
 struct Variant {
     std::string technique;
     ParameterValues values;
-};
-
-/// Errors in percent (ErrorMetrics).
-struct MeanErrors {
-    double visibility = 0.0, shadow = 0.0;
 };
 
 /// Voxel rows as the paper's tables have them: compressed, and as they are where the scene deforms, since the array is

@@ -19,6 +19,7 @@ struct PaperFigure {
 namespace quantity {
 constexpr std::string_view visibility = "visibility error, voxel rows";
 constexpr std::string_view shadow = "shadow error, voxel rows";
+constexpr const char* of_all_lights = ", of all lights";  ///< behind the name of an error
 constexpr std::string_view imperfect_visibility = "visibility error, imperfect shadow maps";
 constexpr std::string_view imperfect_shadow = "shadow error, imperfect shadow maps";
 constexpr std::string_view equal_time_points = "points of imperfect shadow maps, equal time";

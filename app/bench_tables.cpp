@@ -112,7 +112,7 @@ std::vector<int> fitting_resolutions(MeasuredTable& table, const BenchRun& run) 
     const std::uint64_t available = available_memory_bytes();
     std::vector<int> fitting;
     for (const int resolution : {32, 64, 128, 256}) {
-        const std::uint64_t needed = voxel_rows::array_bytes(resolution, step) / 4 * 5;  // the compressed copy besides
+        const std::uint64_t needed = voxel_rows::compression_bytes(resolution, step);
         if (needed <= available)
             fitting.push_back(resolution);
         else

@@ -227,22 +227,28 @@ Shared<SceneModel> Results::tried_model(const Session& session, Progress& progre
     return model_.get(model_part(session), progress, false, [&] { return find_scene(session.scene, progress); });
 }
 
+Session Results::at_rest(Session session) const {
+    const auto model = model_.latest(model_part(session));
+    if (model && model->value.duration_s == 0.0) session.time_s = 0.0;
+    return session;
+}
+
 Shared<Scene> Results::scene(const Session& session, Progress& progress) {
-    if (auto ready = scene_.latest(scene_part(session))) return ready;
+    if (auto ready = scene_.latest(scene_part(at_rest(session)))) return ready;
     const auto model = this->model(session, progress);
-    return scene_.get(scene_part(session), progress, false, [&] { return model->value.at(session.time_s); });
+    return scene_.get(scene_part(at_rest(session)), progress, false, [&] { return model->value.at(session.time_s); });
 }
 
 Shared<std::shared_ptr<const EmbreeScene>> Results::embree(const Session& session, Progress& progress) {
     const auto scene = this->scene(session, progress);
-    return embree_.get(scene_part(session), progress, false,
+    return embree_.get(scene_part(at_rest(session)), progress, false,
                        [&] { return build_embree_scene(scene->value, EmbreeUse::reference, threads_, progress); });
 }
 
 Shared<SurfaceBuffer> Results::surfaces(const Session& session, Progress& progress) {
     const auto scene = this->scene(session, progress);
     const auto embree = this->embree(session, progress);
-    return surfaces_.get(surfaces_part(session), progress, false, [&] {
+    return surfaces_.get(surfaces_part(at_rest(session)), progress, false, [&] {
         return visible_surfaces(scene->value, *embree->value, session_camera(session, scene->value), session.size,
                                 threads_, progress);
     });
@@ -274,7 +280,7 @@ Shared<std::vector<Light>> Results::lights(const Session& session, Progress& pro
     const bool unlit = lit_by_environment(session);
     const std::uint32_t indirect = unlit ? 0 : session.lights.virtual_lights;
     const auto embree = indirect > 0 ? this->embree(session, progress) : nullptr;
-    return lights_.get(lights_part(session), progress, false, [&] {
+    return lights_.get(lights_part(at_rest(session)), progress, false, [&] {
         if (unlit) return std::vector<Light>{};
         std::vector<Light> lights = make_lights(scene->value, session.lights, session.seed);
         if (indirect == 0) return lights;
@@ -376,7 +382,7 @@ Shared<RenderResult> Results::latest_picture(const Session& session) const {
 
 Shared<BuiltStructure> Results::latest_structure(const Session& session) const {
     if (structure_.empty()) return nullptr;
-    const auto scene = scene_.latest(scene_part(session));
+    const auto scene = scene_.latest(scene_part(at_rest(session)));
     return scene ? structure_.latest(structure_key(session, scene->value)) : nullptr;
 }
 

@@ -148,6 +148,9 @@ public:
 
 private:
     Session resolved(Session session) const;
+    /// At time 0 where nothing moves in the session's scene, which is known once it is loaded: what is made of the scene
+    /// alone then stays as time goes on, and only what depends on the surroundings' turning is made again.
+    Session at_rest(Session session) const;
     /// What the structure for this scene depends on: not the time where nothing moves.
     Session structure_key(const Session& session, const Scene& scene) const;
 

@@ -39,8 +39,7 @@ ErrorMetrics compare(const RenderResult& ours, const RenderResult& reference) {
     ErrorMetrics metrics;
     metrics.visibility_error = ImageScalar(size, std::numeric_limits<float>::quiet_NaN());
     metrics.shadow_error = metrics.visibility_error;
-    double visibility_sum = 0.0;
-    double shadow_sum = 0.0;
+    double visibility_sum = 0.0, shadow_sum = 0.0, wrong_rays = 0.0, uncancelled_rays = 0.0;
     std::size_t asking_pixels = 0;
     for (std::size_t p = 0; p < size.pixels(); ++p) {
         const std::uint32_t asked = reference.rays_asked.pixels[p];
@@ -53,11 +52,16 @@ ErrorMetrics compare(const RenderResult& ours, const RenderResult& reference) {
         metrics.shadow_error.pixels[p] = shadow;
         visibility_sum += wrong;
         shadow_sum += std::fabs(static_cast<double>(shadow));
+        wrong_rays += wrong * asked;
+        uncancelled_rays += std::fabs(static_cast<double>(shadow)) * asked;
         ++asking_pixels;
     }
     if (asking_pixels > 0) {
-        metrics.visibility_percent = 100.0 * visibility_sum / static_cast<double>(asking_pixels);
-        metrics.shadow_percent = 100.0 * shadow_sum / static_cast<double>(asking_pixels);
+        const auto pixels = static_cast<double>(asking_pixels);
+        metrics.visibility_percent = 100.0 * visibility_sum / pixels;
+        metrics.shadow_percent = 100.0 * shadow_sum / pixels;
+        metrics.wrong_rays = wrong_rays / pixels;
+        metrics.uncancelled_rays = uncancelled_rays / pixels;
     }
     compare_radiance(ours.radiance, reference.radiance, metrics);
     return metrics;

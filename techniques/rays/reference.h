@@ -28,7 +28,10 @@ struct ErrorMetrics {
     double visibility_percent =
         0.0;  ///< Wang 2017, epsilon_v: share of a pixel's asked rays judged wrongly, mean over pixels
     double shadow_percent = 0.0;  ///< epsilon_s: |difference of shadow values|, mean over pixels
-    double rmse = 0.0;            ///< of linear radiance, over all channels and pixels
+    /// The same as rays of a pixel. Divided by the number of lights they are what the paper's example counts, for which
+    /// a light behind the surface is a right answer too; above, only rays that are asked count.
+    double wrong_rays = 0.0, uncancelled_rays = 0.0;
+    double rmse = 0.0;  ///< of linear radiance, over all channels and pixels
     double max_abs = 0.0;
     ImageScalar visibility_error;  ///< [P] share in [0, 1]; NaN on the background
     ImageScalar shadow_error;      ///< [P] signed, ours minus reference; NaN on the background

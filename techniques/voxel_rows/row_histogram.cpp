@@ -239,6 +239,12 @@ void keep_blank(std::uint32_t count, RowHistogram<length>& histogram) {
 
 }  // namespace
 
+std::uint64_t counting_bytes(std::size_t rows, int words_per_row, std::size_t distinct) {
+    const Cut cut(rows, default_rows_per_part);
+    const auto length = static_cast<std::uint64_t>(words_per_row);
+    return sizeof(std::uint32_t) * (rows + rows / cut.sweeps * (length + 3) + distinct * (length + 1));
+}
+
 template <int length>
 RowHistogram<length> count_rows(const RowArray& array, int threads, Progress& progress, std::size_t rows_per_part) {
     const RowGrid& grid = array.grid;

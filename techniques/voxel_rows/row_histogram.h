@@ -29,16 +29,21 @@ struct RowHistogram {
     std::vector<DistinctRows<length>> parts;
     std::vector<HugeBuffer> memory;  ///< of the parts
     HugeBuffer spare;                ///< what counting has left for other use
-    HugeBuffer id_of_row;    ///< [array.grid.rows()] 0: blank or padding
-    std::uint32_t ids = 1;   ///< one more than the highest
-    std::uint64_t rows = 0;  ///< without padding
+    HugeBuffer id_of_row;            ///< [array.grid.rows()] 0: blank or padding
+    std::uint32_t ids = 1;           ///< one more than the highest
+    std::uint64_t rows = 0;          ///< without padding
     std::uint64_t distinct = 0;
 };
+
+constexpr std::size_t default_rows_per_part = 1u << 16u;
+
+/// The most that count_rows holds beside the array, where no more than `distinct` rows are.
+std::uint64_t counting_bytes(std::size_t rows, int words_per_row, std::size_t distinct);
 
 /// `length` is array.grid.words_per_row. The same for any number of threads. `rows_per_part`: on average; most of them
 /// repeat others.
 template <int length>
 RowHistogram<length> count_rows(const RowArray& array, int threads, Progress& progress,
-                                std::size_t rows_per_part = 1u << 16u);
+                                std::size_t rows_per_part = default_rows_per_part);
 
 }  // namespace sightlines::voxel_rows

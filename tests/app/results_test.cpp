@@ -33,6 +33,25 @@ TEST(Results, RebuildNothingWhenOnlyTheLooksChange) {
     EXPECT_EQ(results.latest_picture(session), picture);
 }
 
+TEST(Results, KeepWhatStandsStillAsTheSkyTurns) {
+    Results results(0, Backend::cpu);
+    Progress progress;
+    Session session = small_session();
+    session.technique = "visibility_field";
+    session.parameters["visibility_field"] = {{"points", 2000.0}, {"rays_per_point", 16.0}, {"cell_size", 2.0}};
+    session.environment.turn_deg_per_s = 10.0f;
+    session.time_s = 1.0;
+    const auto picture = results.picture(session, progress);
+    Session later = session;
+    later.time_s = 2.0;
+    EXPECT_EQ(results.scene(later, progress), results.scene(session, progress));
+    EXPECT_EQ(results.embree(later, progress), results.embree(session, progress));
+    EXPECT_EQ(results.surfaces(later, progress), results.surfaces(session, progress));
+    EXPECT_EQ(results.lights(later, progress), results.lights(session, progress));
+    EXPECT_EQ(results.structure(later, progress), results.structure(session, progress));
+    EXPECT_NE(results.picture(later, progress)->value.radiance.pixels, picture->value.radiance.pixels);
+}
+
 TEST(Results, TellWhatCompressionChanged) {
     Results results(0, Backend::cpu);
     Progress progress;

@@ -38,6 +38,8 @@ TEST(Compare, AveragesTheSharesOfWrongRaysOverThePixelsThatAsked) {
     const ErrorMetrics metrics = compare(ours, reference);
     EXPECT_NEAR(metrics.visibility_percent, 100.0 * (2.0 / 4.0 + 1.0 / 40.0) / 2.0, 1e-9);
     EXPECT_NEAR(metrics.shadow_percent, 100.0 * (0.0 + 1.0 / 40.0) / 2.0, 1e-5);
+    EXPECT_NEAR(metrics.wrong_rays, (2.0 + 1.0) / 2.0, 1e-9);
+    EXPECT_NEAR(metrics.uncancelled_rays, (0.0 + 1.0) / 2.0, 1e-6);
     EXPECT_FLOAT_EQ(metrics.visibility_error.pixels[0], 0.5f);
     EXPECT_FLOAT_EQ(metrics.visibility_error.pixels[1], 0.025f);
     EXPECT_TRUE(std::isnan(metrics.visibility_error.pixels[2]));

@@ -9,9 +9,9 @@ namespace {
 
 constexpr std::uint64_t gigabyte = 1'000'000'000;
 
-std::string refusal(int resolution, double angle_step_deg, std::uint64_t available_bytes) {
+std::string refusal(int resolution, double angle_step_deg, std::uint64_t available_bytes, Asked asked = Asked::array) {
     try {
-        require_memory(resolution, angle_step_deg, available_bytes);
+        require_memory(resolution, angle_step_deg, available_bytes, asked);
     } catch (const EnvironmentError& error) {
         return error.what();
     }
@@ -34,6 +34,17 @@ TEST(MemoryNeed, TheRefusalNamesTheNeedAndTheNearestChoicesThatFit) {
     EXPECT_NE(text.find("256 voxels at 1 deg takes 67.9 GB"), std::string::npos) << text;
     EXPECT_NE(text.find("20 GB are free"), std::string::npos) << text;
     EXPECT_NE(text.find("256 voxels at 2 deg (17 GB) or 128 voxels at 1 deg (8.49 GB)"), std::string::npos) << text;
+}
+
+TEST(MemoryNeed, CompressingTakesMoreThanTheArrayAndFitsLess) {
+    const std::uint64_t enough = compression_bytes(128, 2.0);
+    EXPECT_GT(enough, array_bytes(128, 2.0) + 2 * gigabyte);
+    EXPECT_LT(enough, array_bytes(128, 2.0) + 6 * gigabyte);
+    EXPECT_EQ(refusal(128, 2.0, enough, Asked::compressed_array), "accepted");
+    const std::string text = refusal(256, 2.0, 20 * gigabyte, Asked::compressed_array);
+    EXPECT_NE(text.find("256 voxels at 2 deg, to be compressed, takes"), std::string::npos) << text;
+    EXPECT_NE(text.find("192 voxels at 2 deg"), std::string::npos) << text;
+    EXPECT_EQ(refusal(256, 2.0, 20 * gigabyte), "accepted");
 }
 
 TEST(MemoryNeed, WhereNothingFitsItSaysSo) {
