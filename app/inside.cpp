@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "techniques/base/error.h"
+#include "techniques/trace_boxes.h"
 #include "techniques/voxel_rows/dictionary.h"
 #include "techniques/voxel_rows/voxel_rows.h"
 
@@ -49,6 +50,46 @@ std::shared_ptr<const std::vector<std::uint8_t>> occupied_voxels(UnpackedVoxels&
     return occupied;
 }
 
+/// The row of an object that the picture shows: of two the one that is in the way, else the first.
+const voxel_rows::AskedRow& shown_row(const voxel_rows::AskedObject& asked) {
+    const auto blocked = std::ranges::find_if(asked.rows, &voxel_rows::AskedRow::blocked);
+    return blocked == asked.rows.end() ? asked.rows.front() : *blocked;
+}
+
+/// The voxels of the object's array in the direction that serves the ray, where the object is now.
+std::shared_ptr<const VoxelRowPicture> rows_of(const voxel_rows::RowArray& type, const mat4& world_from_object,
+                                               const voxel_rows::AskedObject& asked, const Segment& ray) {
+    if (asked.rows.empty()) return nullptr;
+    const voxel_rows::AskedRow& row = shown_row(asked);
+    VoxelRowPicture rows;
+    rows.resolution = type.grid.resolution;
+    rows.occupied =
+        std::make_shared<const std::vector<std::uint8_t>>(voxel_rows::unpack_voxelization(type, asked.direction));
+    rows.world_from_voxels = world_from_object * voxel_rows::world_from_voxels(type.grid, asked.direction);
+    rows.v = row.v;
+    rows.w = row.w;
+    rows.first = row.first;
+    rows.last = row.last;
+    rows.ray = ray;
+    rows.row_direction = glm::normalize(vec3(rows.world_from_voxels[0]));
+    rows.blocked = row.blocked;
+    return std::make_shared<const VoxelRowPicture>(std::move(rows));
+}
+
+/// The objects that the ray was asked of after what stands still (Algorithm 5).
+std::vector<ObjectPicture> objects_of(const SelectedRay& ray, const voxel_rows::Objects& objects) {
+    std::vector<ObjectPicture> pictures;
+    for (const voxel_rows::AskedObject& asked : voxel_rows::asked_objects(objects, ray.trace)) {
+        const voxel_rows::PlacedObject& placed = objects.placed[asked.instance];
+        const voxel_rows::RowArray& type = objects.types[placed.type];
+        const Box3& own = type.grid.bounds;
+        pictures.push_back({"instance " + std::to_string(asked.instance),
+                            box_geometry("", placed.world_from_object, own.lowest, own.highest).points, asked.blocked(),
+                            rows_of(type, placed.world_from_object, asked, ray.trace.ray)});
+    }
+    return pictures;
+}
+
 /// All but the voxels.
 VoxelRowPicture picture_of(const SelectedRay& ray, const Opened& from) {
     const voxel_rows::ServedRay& served = from.served;
@@ -68,8 +109,9 @@ VoxelRowPicture picture_of(const SelectedRay& ray, const Opened& from) {
     picture.angular_error_deg = served.angular_error_deg;
     picture.theta_deg = static_cast<float>(served.theta * degrees_per_angle);
     picture.phi_deg = static_cast<float>(served.phi * degrees_per_angle);
-    picture.blocked = served.blocked;
+    picture.blocked = ray.trace.blocked;
     picture.truly_blocked = ray.truly_blocked;
+    picture.objects = objects_of(ray, voxel_rows::objects(from.structure->value.structure));
     return picture;
 }
 
@@ -191,6 +233,7 @@ DictionaryPicture dictionary_picture(const Session& session, const SelectedRay& 
                                                      from.served.direction, results.threads(), progress);
     });
     picture.row.blocked = is_row_blocked(picture.row);
+    picture.row.objects.clear();  // they are asked by rows of their own, which no dictionary holds
     picture.summary = summary_of(unpacked, from);
     const RowShape shape = voxel_rows::make_shape(from.array);
     const std::uint32_t row =

@@ -5,6 +5,7 @@
 
 #include "app/inside.h"
 #include "shaders/visibility_field.h"
+#include "techniques/trace_boxes.h"
 #include "techniques/visibility_field/visibility_field.h"
 #include "visualizers/mask_merging.h"
 
@@ -43,11 +44,6 @@ ShownCell shown_cell(const BuiltField& built, const Session& session, const Sele
                    take(scalar_kernel::find_cell(shape, bricks, voxel->x, voxel->y, voxel->z));
     if (!shown.picked) take(scalar_kernel::locate_cell(shape, bricks, ray.request.position, ray.request.normal));
     return shown;
-}
-
-TraceGeometry box_geometry(const std::string& name, const Box3& box) {
-    const vec3 size = box.size();
-    return {name, TraceShape::box, {box.lowest, {size.x, 0.0f, 0.0f}, {0.0f, size.y, 0.0f}, {0.0f, 0.0f, size.z}}};
 }
 
 std::vector<std::uint8_t> bits_of(std::span<const std::uint32_t> words, int side) {

@@ -102,16 +102,23 @@ Verdict verdict_of(const VoxelRowPicture& picture) {
     for (int u = picture.first; u <= picture.last; ++u) set += is_set(picture, {u, picture.v, picture.w});
     const std::string count =
         std::to_string(set) + " of " + std::to_string(std::max(picture.last - picture.first + 1, 0)) + " voxels";
+    const auto in_the_way = std::ranges::find_if(picture.objects, &ObjectPicture::blocked);
+    const bool by_object = in_the_way != picture.objects.end();
     std::string embree, why;
     if (picture.truly_blocked) {
         embree = *picture.truly_blocked == picture.blocked ? " Embree agrees"
                  : *picture.truly_blocked                  ? " Embree says blocked"
                                                            : " Embree says open";
         if (*picture.truly_blocked != picture.blocked)
-            why = *picture.truly_blocked ? ": the row missed it" : ": the voxels are too coarse here";
+            why = *picture.truly_blocked ? (picture.objects.empty() ? ": the row missed it" : ": the rows missed it")
+                                         : ": the voxels are too coarse here";
         embree += why + ".";
     }
     const std::string short_embree = embree.empty() ? "" : embree.substr(0, embree.size() - 1 - why.size()) + ".";
+    if (by_object)
+        return {picture.blocked,
+                {"by " + in_the_way->name + ", which moves; " + count + " of what stands still." + embree,
+                 "by " + in_the_way->name + "." + short_embree, "by " + in_the_way->name + "."}};
     return {picture.blocked,
             {count + " looked at " + (set == 1 ? "is" : "are") + " set." + embree, count + " set." + short_embree,
              short_embree.empty() ? count + " set." : short_embree.substr(1)}};

@@ -57,7 +57,7 @@ float draw_panel(Canvas& canvas, const VoxelRowPicture& picture, const ViewState
     if (wedge > 0.0f)
         draw_angle_wedge(canvas, picture, state,
                          {{width - margin - wedge + 2.0f * em, y - 0.5f * em}, {wedge - 2.0f * em, 2.6f * em}}, em);
-    const float legend = draw_voxel_row_legend(canvas, state, {margin, y}, inner - wedge, em);
+    const float legend = draw_voxel_row_legend(canvas, picture, state, {margin, y}, inner - wedge, em);
     return y + std::max(legend, wedge > 0.0f ? 3.0f * em : 0.0f) + 0.6f * margin - top;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "techniques/trace_boxes.h"
 #include "visualizers/canvas.h"
 #include "visualizers/dictionary_panel.h"
 #include "visualizers/lit_marks.h"
@@ -20,7 +21,10 @@ constexpr float pick_reach_pixels = 6.0f;
 bool is_same_solid(const VoxelRowPicture& a, const VoxelRowPicture& b) {
     return a.scene == b.scene && a.occupied == b.occupied && a.resolution == b.resolution &&
            a.world_from_voxels == b.world_from_voxels && a.v == b.v && a.w == b.w && a.first == b.first &&
-           a.last == b.last && a.ray.origin == b.ray.origin && a.ray.target == b.ray.target;
+           a.last == b.last && a.ray.origin == b.ray.origin && a.ray.target == b.ray.target &&
+           std::ranges::equal(a.objects, b.objects, [](const ObjectPicture& one, const ObjectPicture& other) {
+               return one.rows == other.rows || (one.rows && other.rows && is_same_solid(*one.rows, *other.rows));
+           });
 }
 
 bool is_same_solid(const RayPicture& a, const RayPicture& b) {
@@ -150,10 +154,9 @@ ImageRgba8 render(InsideView& view, const InsidePicture& picture, const ViewStat
 }
 
 TraceGeometry voxel_box(const VoxelRowPicture& rows, ivec3 voxel) {
-    const mat4& world = rows.world_from_voxels;
     std::string name = "voxel " + std::to_string(voxel.x);
     for (const int index : {voxel.y, voxel.z}) name.append(", ").append(std::to_string(index));
-    return {name, TraceShape::box, {world_point(rows, vec3(voxel)), vec3(world[0]), vec3(world[1]), vec3(world[2])}};
+    return box_geometry(name, rows.world_from_voxels, vec3(voxel), vec3(voxel + 1));
 }
 
 std::vector<TraceGeometry> differing_voxels(const DictionaryPicture& picture) {

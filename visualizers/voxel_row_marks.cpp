@@ -6,6 +6,7 @@
 #include <string>
 
 #include "visualizers/bit_strip.h"
+#include "visualizers/lit_marks.h"
 #include "visualizers/theme.h"
 #include "visualizers/view_camera.h"
 #include "visualizers/view_marks.h"
@@ -135,6 +136,44 @@ void label_rays(Sheet& sheet, const VoxelRowPicture& picture, const ViewState& s
     if (state.twin) draw_angle(sheet, picture);
 }
 
+vec3 object_colour(const Sheet& sheet, const ObjectPicture& object) {
+    return object.blocked ? sheet.colours.set_bit : object.rows ? sheet.colours.ink : sheet.colours.muted;
+}
+
+/// Fills the voxels that are in the way, which the larger ones of what stands still may hide.
+void fill_blockers(Sheet& sheet, const VoxelRowPicture& rows) {
+    for (int u = rows.first; u <= rows.last; ++u)
+        if (is_set(rows, {u, rows.v, rows.w}))
+            fill_path(sheet.canvas, cells_outline(sheet, rows, u, u), sheet.colours.set_bit, 0.8f);
+}
+
+/// The bounds of the objects that were asked, and the part of the rows that was looked at.
+void draw_objects(Sheet& sheet, const VoxelRowPicture& picture, const ViewState& state) {
+    for (const ObjectPicture& object : picture.objects) {
+        const Stroke line{.colour = object_colour(sheet, object), .width = (object.rows ? 0.12f : 0.06f) * sheet.em};
+        for_each_edge(object.bounds, [&](vec3 from, vec3 to) { draw_world_line(sheet, from, to, line); });
+        if (!object.rows) continue;
+        if (state.row) fill_blockers(sheet, *object.rows);
+        if (state.row && state.extent) mark_kept_part(sheet, *object.rows);
+        if (state.extent) draw_extent(sheet, *object.rows, false);
+    }
+}
+
+/// Says of each object whose row was asked what became of the ray there.
+void label_objects(Sheet& sheet, const VoxelRowPicture& picture, const ViewState& state) {
+    for (const ObjectPicture& object : picture.objects) {
+        if (!object.rows) continue;
+        if (state.row) label_first_blocker(sheet, *object.rows);
+        const std::vector<vec3>& box = object.bounds;
+        vec3 top = box[0] + 0.5f * (box[1] + box[2] + box[3]);
+        for (std::size_t edge = 1; edge <= 3; ++edge) top.y += 0.5f * std::abs(box[edge].y);
+        if (const auto at = projected(sheet.camera, top))
+            place_label(sheet, vec2(*at), {0.0f, -1.0f},
+                        object.name + (object.blocked ? ": in the way" : ": lets it by"),
+                        label_style(sheet, object_colour(sheet, object)));
+    }
+}
+
 /// Verdict and, where the picture is large enough, legend in the top left corner, on a ground that hides a little of
 /// the picture.
 void draw_key(Sheet& sheet, const VoxelRowPicture& picture, const ViewState& state) {
@@ -144,13 +183,13 @@ void draw_key(Sheet& sheet, const VoxelRowPicture& picture, const ViewState& sta
     const vec2 corner{em, em}, out_of_sight{-1e4f, -1e4f};
     const float room = static_cast<float>(canvas.size.x) - 4.0f * em;
     const float width = draw_verdict(canvas, picture, state, out_of_sight, room, small);
-    const float legend = draw_voxel_row_legend(canvas, state, out_of_sight, width, small);
+    const float legend = draw_voxel_row_legend(canvas, picture, state, out_of_sight, width, small);
     const bool with_legend = legend + 3.2f * em < most_of_height * static_cast<float>(canvas.size.y);
     const Rectangle ground{corner, {width + 2.0f * em, with_legend ? legend + 3.2f * em : 2.6f * em}};
     fill_rectangle(canvas, ground, sheet.colours.page, 0.88f);
     draw_rectangle(canvas, ground, {.colour = sheet.colours.hairline, .width = 1.0f});
     draw_verdict(canvas, picture, state, corner + vec2(em, 1.7f * em), room, small);
-    if (with_legend) draw_voxel_row_legend(canvas, state, corner + vec2(em, 2.8f * em), width, small);
+    if (with_legend) draw_voxel_row_legend(canvas, picture, state, corner + vec2(em, 2.8f * em), width, small);
     sheet.taken.push_back(ground);
 }
 
@@ -162,6 +201,7 @@ void draw_voxel_row_marks(Canvas& canvas, const VoxelRowPicture& picture, const 
     Sheet sheet{canvas, palette(state.theme), view_camera(orbit, size), 12.0f * text_scale};
     if (state.row && state.extent) mark_kept_part(sheet, picture);
     if (state.extent) draw_extent(sheet, picture, false);
+    draw_objects(sheet, picture, state);
     draw_rays(sheet, picture, state);
     if (!state.labels) return;
     if (key == MarksKey::in_corner) draw_key(sheet, picture, state);
@@ -176,9 +216,11 @@ void draw_voxel_row_marks(Canvas& canvas, const VoxelRowPicture& picture, const 
     if (state.extent) draw_extent(sheet, picture, true);
     label_rays(sheet, picture, state);
     if (state.row) label_first_blocker(sheet, picture);
+    label_objects(sheet, picture, state);
 }
 
-float draw_voxel_row_legend(Canvas& canvas, const ViewState& state, vec2 at, float width, float text_height) {
+float draw_voxel_row_legend(Canvas& canvas, const VoxelRowPicture& picture, const ViewState& state, vec2 at,
+                            float width, float text_height) {
     const Palette colours = palette(state.theme);
     const float em = text_height, key = 1.7f * em, line = 1.7f * em;
     const TextStyle style{.height = em, .colour = colours.ink};
@@ -216,6 +258,11 @@ float draw_voxel_row_legend(Canvas& canvas, const ViewState& state, vec2 at, flo
         item("voxels behind the row", [&](vec2 m) { fill_rectangle(canvas, square(m, em), colours.voxel); });
     if (state.voxels && state.cut_away == CutAway::to_row)
         item("cut through", [&](vec2 m) { fill_rectangle(canvas, square(m, em), colours.section); });
+    if (!picture.objects.empty())
+        item("object that was asked", [&](vec2 m) {
+            draw_rectangle(canvas, {m - vec2(0.7f, 0.45f) * em, vec2(1.4f, 0.9f) * em},
+                           {.colour = colours.muted, .width = 0.1f * em});
+        });
     return cursor.y + line - at.y;
 }
 

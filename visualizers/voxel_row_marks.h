@@ -17,6 +17,7 @@ void draw_voxel_row_marks(Canvas& canvas, const VoxelRowPicture& picture, const 
                           float text_scale, MarksKey key);
 
 /// What the colours and shapes mean, from `at` to the right, in lines no wider than `width`. Gives the height used.
-float draw_voxel_row_legend(Canvas& canvas, const ViewState& state, vec2 at, float width, float text_height);
+float draw_voxel_row_legend(Canvas& canvas, const VoxelRowPicture& picture, const ViewState& state, vec2 at,
+                            float width, float text_height);
 
 }  // namespace sightlines

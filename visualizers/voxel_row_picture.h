@@ -4,12 +4,23 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "techniques/scene/scene.h"
 #include "techniques/scene/surface_buffer.h"
 
 namespace sightlines {
+
+struct VoxelRowPicture;
+
+/// An object that moves, which the ray was asked of besides what stands still, where it is at its moment.
+struct ObjectPicture {
+    std::string name;                             ///< "instance 2"
+    std::vector<vec3> bounds;                     ///< a box: a corner and three edges, world, m
+    bool blocked = false;                         ///< the object is in the way
+    std::shared_ptr<const VoxelRowPicture> rows;  ///< its voxels and its row, without scene; null: the ray passes it by
+};
 
 /// Voxel (u, v, w) is occupied[(w * N + v) * N + u] != 0; u runs along the row. The scene and the occupancy are
 /// immutable: a view rebuilds what depends on them when another object is handed in, never otherwise.
@@ -24,8 +35,9 @@ struct VoxelRowPicture {
     vec3 row_direction{1.0f, 0.0f, 0.0f};                       ///< unit, world; either sign
     float angular_error_deg = 0.0f;                             ///< between the ray and the row
     float theta_deg = 0.0f, phi_deg = 0.0f;                     ///< the discretised direction
-    bool blocked = false;                                       ///< the row's verdict
+    bool blocked = false;                                       ///< the verdict of the row and of the objects
     std::optional<bool> truly_blocked;                          ///< Embree's verdict, where it was asked
+    std::vector<ObjectPicture> objects;                         ///< in the order in which they were asked
 };
 
 /// Whether voxel (u, v, w) is set. The indices must be inside.

@@ -25,7 +25,7 @@ namespace {
 struct MadeFrom {
     std::shared_ptr<const void> content;
     mat4 world_from_voxels{0.0f};
-    VoxelBox box{};
+    VoxelBox box{};  ///< of voxels; empty: none
     CutPlane cut{};
     int v = -1, w = -1, first = 0, last = 0;
     Theme theme = Theme::light;
@@ -49,6 +49,20 @@ Box3 drawn_bounds(const VoxelRowPicture& picture) {
     return bounds;
 }
 
+void append(ColouredTriangles& out, const ColouredTriangles& more) {
+    const auto first = static_cast<std::uint32_t>(out.positions.size());
+    out.positions.insert(out.positions.end(), more.positions.begin(), more.positions.end());
+    out.colours.insert(out.colours.end(), more.colours.begin(), more.colours.end());
+    for (const uvec3& triangle : more.triangles) out.triangles.push_back(triangle + first);
+}
+
+/// The part of an object's voxels that is drawn: the slice counts voxels of what stands still.
+VoxelBox object_box(const VoxelRowPicture& rows, ViewState state, vec3 forward) {
+    state.slice_first = 0;
+    state.slice_last = rows.resolution - 1;
+    return cut_away(rows, state, forward).box;
+}
+
 /// Where a line enters a box: origin + distance * direction, or nothing.
 std::optional<float> entry(vec3 low, vec3 high, vec3 origin, vec3 direction) {
     float enter = 0.0f, leave = std::numeric_limits<float>::infinity();
@@ -68,17 +82,54 @@ struct VoxelRowView::Objects {
     vtkNew<vtkRenderer> renderer;
     vtkNew<vtkPlane> cut;
     Piece scene, voxels, row;
+    KeptPiece<std::vector<MadeFrom>> moving;  ///< voxels and rows of the objects that move
 
     Objects() {
         renderer->SetBackground(0.0, 0.0, 0.0);
         renderer->SetBackgroundAlpha(0.0);
         for (Piece* const piece : {&scene, &voxels, &row}) renderer->AddActor(piece->solid.actor);
+        renderer->AddActor(moving.solid.actor);
         scene.solid.mapper->AddClippingPlane(cut);
         window->AddRenderer(renderer);
     }
 };
 
 namespace {
+
+/// What the objects' voxels and rows were made from: two entries an object.
+std::vector<MadeFrom> moving_from(const VoxelRowPicture& picture, const ViewState& state, vec3 forward) {
+    std::vector<MadeFrom> from;
+    for (const ObjectPicture& object : picture.objects) {
+        if (!object.rows) continue;
+        const VoxelRowPicture& rows = *object.rows;
+        MadeFrom piece{.content = rows.occupied, .world_from_voxels = rows.world_from_voxels, .theme = state.theme};
+        if (state.voxels) piece.box = object_box(rows, state, forward);
+        if (state.row) {
+            piece.v = rows.v;
+            piece.w = rows.w;
+            piece.first = rows.first;
+            piece.last = rows.last;
+            piece.mark_extent = state.extent;
+        }
+        from.push_back(piece);
+    }
+    return from;
+}
+
+void make_moving(VoxelRowView::Objects& objects, const VoxelRowPicture& picture, const ViewState& state, vec3 forward) {
+    const std::vector<MadeFrom> from = moving_from(picture, state, forward);
+    keep_made(objects.moving, !from.empty(), from, [&] {
+        const Palette colours = palette(state.theme);
+        ColouredTriangles all;
+        for (const ObjectPicture& object : picture.objects) {
+            if (!object.rows) continue;
+            if (state.voxels)
+                append(all, voxel_triangles(*object.rows, object_box(*object.rows, state, forward), colours));
+            if (state.row) append(all, row_triangles(*object.rows, colours, state.extent));
+        }
+        return all;
+    });
+}
 
 void make_pieces(VoxelRowView::Objects& objects, const VoxelRowPicture& picture, const ViewState& state,
                  const Cut& cut) {
@@ -145,6 +196,7 @@ ImageRgba8 render_solid(VoxelRowView& view, const VoxelRowPicture& picture, cons
     const Cut cut = cut_away(picture, state, camera.forward);
     const CutPlane plane = cut_plane(picture, cut);
     make_pieces(objects, picture, state, cut);
+    make_moving(objects, picture, state, camera.forward);
 
     objects.cut->SetOrigin(plane.origin.x, plane.origin.y, plane.origin.z);
     objects.cut->SetNormal(plane.normal.x, plane.normal.y, plane.normal.z);
@@ -165,14 +217,15 @@ ImageRgba8 render(VoxelRowView& view, const VoxelRowPicture& picture, const View
     return finished_picture(canvas);
 }
 
-std::optional<ivec3> pick(const VoxelRowPicture& picture, const ViewState& state, ImageSize size, vec2 pixel) {
-    const ViewCamera camera = view_camera(shown_camera(picture, state, size), size);
-    const Cut cut = cut_away(picture, state, camera.forward);
+namespace {
+
+/// The nearest voxel of the box or of the row that is drawn along a line of sight in the world.
+std::optional<MetVoxel> met_voxel(const VoxelRowPicture& picture, const ViewState& state, const VoxelBox& drawn,
+                                  vec3 eye, vec3 sight) {
     const mat4 voxels_from_world = glm::inverse(picture.world_from_voxels);
-    const vec3 origin(voxels_from_world * vec4(camera.position, 1.0f));
-    const vec3 direction(voxels_from_world * vec4(direction_through(camera, pixel), 0.0f));
+    const vec3 origin(voxels_from_world * vec4(eye, 1.0f)), direction(voxels_from_world * vec4(sight, 0.0f));
     std::optional<MetVoxel> met;
-    if (state.voxels) met = first_set_voxel(picture, cut.box, origin, direction);
+    if (state.voxels) met = first_set_voxel(picture, drawn, origin, direction);
     for (int u = 0; state.row && u < picture.resolution; ++u) {
         const ivec3 cell{u, picture.v, picture.w};
         if (!is_set(picture, cell)) continue;
@@ -180,7 +233,23 @@ std::optional<ivec3> pick(const VoxelRowPicture& picture, const ViewState& state
         const auto distance = entry(box.low, box.high, origin, direction);
         if (distance && (!met || *distance < met->distance)) met = MetVoxel{cell, *distance};
     }
-    return met ? std::optional(met->voxel) : std::nullopt;
+    return met;
+}
+
+}  // namespace
+
+std::optional<ivec3> pick(const VoxelRowPicture& picture, const ViewState& state, ImageSize size, vec2 pixel) {
+    const ViewCamera camera = view_camera(shown_camera(picture, state, size), size);
+    const vec3 sight = direction_through(camera, pixel);
+    const auto met = met_voxel(picture, state, cut_away(picture, state, camera.forward).box, camera.position, sight);
+    if (!met) return std::nullopt;
+    for (const ObjectPicture& object : picture.objects) {
+        if (!object.rows) continue;
+        const VoxelBox drawn = object_box(*object.rows, state, camera.forward);
+        const auto before = met_voxel(*object.rows, state, drawn, camera.position, sight);
+        if (before && before->distance < met->distance) return std::nullopt;
+    }
+    return met->voxel;
 }
 
 }  // namespace sightlines

@@ -41,7 +41,8 @@ ImageRgba8 render(VoxelRowView& view, const VoxelRowPicture& picture, const View
                   int samples_per_axis, float text_scale = 1.0f);
 
 /// The voxel that is drawn under the pixel position (0, 0 is the top left corner of the picture), or nothing. Needs no
-/// window. Voxels of the row count where the row is shown.
+/// window. Voxels of the row count where the row is shown; those of objects that move hide what is behind them, and are
+/// not picked themselves.
 std::optional<ivec3> pick(const VoxelRowPicture& picture, const ViewState& state, ImageSize size, vec2 pixel);
 
 }  // namespace sightlines

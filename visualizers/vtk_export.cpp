@@ -61,12 +61,37 @@ std::array<vec3, 4> world_corners(const VoxelRowPicture& picture, const VoxelFac
     return corners;
 }
 
+std::vector<VoxelFace> all_faces(const VoxelRowPicture& picture) {
+    return voxel_faces(picture, {ivec3(0), ivec3(picture.resolution - 1)});
+}
+
+ivec3 voxel_of(const VoxelFace& face) {
+    ivec3 voxel = glm::min(glm::min(face.corners[0], face.corners[1]), glm::min(face.corners[2], face.corners[3]));
+    if (face.towards_higher) --voxel[face.axis];
+    return voxel;
+}
+
 vtkSmartPointer<vtkPolyData> voxels_data(const VoxelRowPicture& picture) {
     Cells cells{"u", "v", "w"};
-    for (const VoxelFace& face : voxel_faces(picture, {ivec3(0), ivec3(picture.resolution - 1)})) {
-        ivec3 voxel = glm::min(glm::min(face.corners[0], face.corners[1]), glm::min(face.corners[2], face.corners[3]));
-        if (face.towards_higher) --voxel[face.axis];
+    for (const VoxelFace& face : all_faces(picture)) {
+        const ivec3 voxel = voxel_of(face);
         cells.add(world_corners(picture, face), {voxel.x, voxel.y, voxel.z});
+    }
+    return cells.finished(false);
+}
+
+/// The voxels of the objects that move; (u, v, w) count in each one's own voxelization.
+vtkSmartPointer<vtkPolyData> objects_data(const VoxelRowPicture& picture) {
+    Cells cells{"instance", "blocked", "u", "v", "w"};
+    int instance = 0;
+    for (const ObjectPicture& object : picture.objects) {
+        if (object.rows)
+            for (const VoxelFace& face : all_faces(*object.rows)) {
+                const ivec3 voxel = voxel_of(face);
+                cells.add(world_corners(*object.rows, face),
+                          {instance, object.blocked ? 1 : 0, voxel.x, voxel.y, voxel.z});
+            }
+        ++instance;
     }
     return cells.finished(false);
 }
@@ -146,6 +171,7 @@ std::vector<std::filesystem::path> write_voxel_row_vtk(const VoxelRowPicture& pi
     write("voxels", voxels_data(picture));
     write("bits", bits_data(picture));
     write("ray", ray_data(picture));
+    if (!picture.objects.empty()) write("objects", objects_data(picture));
     if (picture.scene) write("scene", scene_data(*picture.scene));
     write_file(index,
                "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "

@@ -1,7 +1,6 @@
 // What every part of the window is given to draw itself once, and where its edits go.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,6 +11,7 @@
 
 #include "app/desk/background.h"
 #include "app/desk/inside_thread.h"
+#include "app/desk/playing.h"
 #include "app/session.h"
 #include "app/window/style.h"
 #include "app/window/texture.h"
@@ -28,12 +28,6 @@ struct Message {
 
 /// Which dialog is open, and what was typed into it so far.
 enum class Dialog { none, keys, open_scene, open_session, save_session, open_environment };
-
-/// The scene's time runs as the clock does, but only moves on when the picture of the last moment is there.
-struct Playing {
-    std::chrono::steady_clock::time_point since;
-    double from_s = 0.0;  ///< the scene's time then
-};
 
 /// What the window remembers between frames and no session holds: where the mouse is, what is half typed. Losing it
 /// loses no work.

@@ -90,13 +90,9 @@ void toggle_playing(Frame& frame) {
 void go_on_playing(Frame& frame) {
     if (!frame.ui.playing) return;
     frame.in_gesture = true;  // drafts do, and all of it is one step of undo
-    const auto& picture = frame.shown.picture;
-    // A preview does not count: the next moment would end the building of this one's structure, again and again.
-    const bool seen = picture && picture->state != PictureState::preview &&
-                      picture->session.scene == frame.session.scene && picture->session.time_s == frame.session.time_s;
-    if (!seen && !frame.shown.picture_failure) return;
-    const std::chrono::duration<double> played = std::chrono::steady_clock::now() - frame.ui.playing->since;
-    frame.next.time_s = looped_time_s(frame.ui.playing->from_s + played.count(), frame.shown.duration_s);
+    const double time_s =
+        played_time_s(*frame.ui.playing, frame.session, frame.shown, std::chrono::steady_clock::now());
+    if (time_s != frame.session.time_s) frame.next.time_s = time_s;
 }
 
 }  // namespace sightlines

@@ -8,6 +8,7 @@
 #include "shaders/harmonic_light.h"
 #include "shaders/visibility_field.h"
 #include "techniques/rays/open_rays.h"
+#include "techniques/trace_boxes.h"
 #include "techniques/visibility_field/trace.h"
 #include "techniques/visibility_field/weighted_samples.h"
 
@@ -15,13 +16,6 @@ namespace sightlines::visibility_field {
 namespace {
 
 namespace kernel = recording_kernel;
-
-TraceGeometry box_of(const FieldShape& shape, ivec3 cell) {
-    const Box3 box = cell_box(shape, cell);
-    const float side = shape.cell_m;
-    return {
-        "cell", TraceShape::box, {box.lowest, vec3(side, 0.0f, 0.0f), vec3(0.0f, side, 0.0f), vec3(0.0f, 0.0f, side)}};
-}
 
 /// Runs the kernel as the renderer does; fills in all but the truth.
 void decide(const VisibilityField& field, Culling culling, const SampleRay& asked, SampleTrace& traced) {
@@ -96,7 +90,8 @@ SampleTrace trace_sample(const VisibilityField& field, const EmbreeScene& embree
         traced.trace.steps = std::move(recording.steps);
     }
     for (TraceStep& step : traced.trace.steps) {
-        if (step.paper == "Algorithm 2, line 3") step.geometry.push_back(box_of(field.shape, traced.cell));
+        if (step.paper == "Algorithm 2, line 3")
+            step.geometry.push_back(box_geometry("cell", cell_box(field.shape, traced.cell)));
         step.geometry.push_back({"ray", TraceShape::segment, {traced.trace.ray.origin, traced.trace.ray.target}});
     }
     return traced;

@@ -9,6 +9,7 @@
 #include "shaders/voxel_rows.h"
 #include "shaders/voxel_rows_first_hit.h"
 #include "techniques/rays/light_records.h"
+#include "techniques/trace_boxes.h"
 #include "techniques/voxel_rows/query.h"
 #include "techniques/voxel_rows/voxel_rows.h"
 
@@ -23,17 +24,9 @@ Segment asked_segment(const RowShape& query, const TraceRequest& request) {
     return {request.position, request.position + to_light};
 }
 
-vec3 row_corner(const mat4& world_from_voxels, float u, float v, float w) {
-    return vec3(world_from_voxels * vec4(u, v, w, 1.0f));
-}
-
 /// Voxels first .. last (inclusive) of the row (v, w) as an oblong box in world space.
 TraceGeometry row_box(const char* name, const mat4& world, int v, int w, int first, int last) {
-    const auto u0 = static_cast<float>(first), v0 = static_cast<float>(v), w0 = static_cast<float>(w);
-    const auto length = static_cast<float>(std::max(0, last - first + 1));
-    return {name,
-            TraceShape::box,
-            {row_corner(world, u0, v0, w0), vec3(world[0]) * length, vec3(world[1]), vec3(world[2])}};
+    return box_geometry(name, world, vec3(first, v, w), vec3(std::max(first, last + 1), v + 1, w + 1));
 }
 
 TraceStep* find_step(std::vector<TraceStep>& steps, std::string_view paper) {
@@ -41,10 +34,12 @@ TraceStep* find_step(std::vector<TraceStep>& steps, std::string_view paper) {
     return step == steps.end() ? nullptr : &*step;
 }
 
-std::int64_t whole_value(const TraceStep& step, std::string_view name) {
-    const auto value = std::ranges::find(step.values, name, &TraceValue::name);
-    return std::get<std::int64_t>(value->value);
+template <class T>
+T value_of(const TraceStep& step, std::string_view name) {
+    return std::get<T>(std::ranges::find(step.values, name, &TraceValue::name)->value);
 }
+
+std::int64_t whole_value(const TraceStep& step, std::string_view name) { return value_of<std::int64_t>(step, name); }
 
 bool holds(const TraceStep& step, std::string_view name) {
     return std::ranges::find(step.values, name, &TraceValue::name) != step.values.end();
@@ -79,11 +74,7 @@ void add_geometry(std::vector<TraceStep>& steps, const RowArray& array, const Se
         step->values.push_back({"row_direction", served.row_direction, ""});
         step->values.push_back({"angular_error", static_cast<double>(served.angular_error_deg), "deg"});
         step->geometry.push_back({"twin", TraceShape::segment, {midpoint - half, midpoint + half}});
-        const auto n = static_cast<float>(array.grid.resolution);
-        step->geometry.push_back(
-            {"voxelization",
-             TraceShape::box,
-             {row_corner(world, 0.0f, 0.0f, 0.0f), vec3(world[0]) * n, vec3(world[1]) * n, vec3(world[2]) * n}});
+        step->geometry.push_back(box_geometry("voxelization", world, vec3(0.0f), vec3(ivec3(array.grid.resolution))));
     }
     add_rows(steps, world, array.grid.resolution);
 }
@@ -107,15 +98,6 @@ void place_geometry(std::span<TraceStep> steps, const RowArray& type, const mat4
     }
 }
 
-/// The bounds of each object on the step that asks whether the ray meets them.
-TraceGeometry bounds_of(const RowArray& type) {
-    const Box3& box = type.grid.bounds;
-    const vec3 size = box.size();
-    return {"object",
-            TraceShape::box,
-            {box.lowest, vec3(size.x, 0.0f, 0.0f), vec3(0.0f, size.y, 0.0f), vec3(0.0f, 0.0f, size.z)}};
-}
-
 /// Algorithm 5 from line 4 on, after the steps of what stands still.
 void add_objects(Trace& trace, const TraceRequest& request, const Objects& objects) {
     const std::vector<ObjectInstance> instances = object_instances(objects, request.parameters);
@@ -132,7 +114,7 @@ void add_objects(Trace& trace, const TraceRequest& request, const Objects& objec
         const PlacedObject& placed = objects.placed[static_cast<std::size_t>(whole_value(*first, "instance"))];
         const RowArray& type = objects.types[placed.type];
         const auto met = std::ranges::find(first, next, "Algorithm 5, line 6", &TraceStep::paper);
-        if (met != next) met->geometry.push_back(bounds_of(type));
+        if (met != next) met->geometry.push_back(box_geometry("object", type.grid.bounds));
         place_geometry({first, next}, type, placed.world_from_object);
         first = next;
     }
@@ -192,6 +174,29 @@ ServedRay serve(const RowArray& array, const TraceRequest& request) {
     for (int u = 0; u < query.resolution; ++u)
         served.bits.push_back((words[static_cast<std::size_t>(u / 32)] >> (u % 32)) & 1u);
     return served;
+}
+
+std::vector<AskedObject> asked_objects(const Objects& objects, const Trace& trace) {
+    std::vector<AskedObject> asked;
+    for (const TraceStep& step : trace.steps) {
+        const auto whole = [&](std::string_view name) { return static_cast<int>(whole_value(step, name)); };
+        if (step.paper == "Algorithm 5, line 4")
+            asked.push_back({.instance = static_cast<std::uint32_t>(whole("instance"))});
+        if (asked.empty()) continue;  // still of what stands still
+        AskedObject& object = asked.back();
+        if (step.paper == "Algorithm 5, line 6") object.met = value_of<bool>(step, "met");
+        if (step.paper == "Algorithm 3, line 1") {
+            const RowArray& type = objects.types[objects.placed[object.instance].type];
+            object.direction = whole("theta_step") * type.grid.angles + whole("phi_step");
+        }
+        if (step.paper == "Algorithm 3, line 3") object.rows.push_back({.v = whole("v"), .w = whole("w")});
+        if (step.paper == "Algorithm 3, line 4") {
+            object.rows.back().first = whole("span.first");
+            object.rows.back().last = whole("span.last");
+        }
+        if (step.paper == "Algorithm 3, lines 5 to 7") object.rows.back().blocked = value_of<bool>(step, "blocked");
+    }
+    return asked;
 }
 
 Trace trace(const RowArray& array, const TraceRequest& request, const Objects& objects) {

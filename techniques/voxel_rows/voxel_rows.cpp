@@ -280,10 +280,9 @@ OnDevice on_device(const BuiltRows& built, Progress& progress) {
     return {built.rigid->fixed_on_device, {built.rigid->types_on_device.get(), built.objects()}};
 }
 
-/// The picture by the lights alone.
-RenderResult lit(const BuiltRows& built, const RenderRequest& request, Progress& progress) {
+/// The picture by the lights alone. `device` holds the structure where the request is for Vulkan.
+RenderResult lit(const BuiltRows& built, const RenderRequest& request, const OnDevice& device, Progress& progress) {
     if (request.backend == Backend::cpu) return render_on_cpu(built.array, request, progress, built.objects());
-    const OnDevice device = on_device(built, progress);
     return render_on_vulkan(*device.array, built.array, request, progress, device.objects);
 }
 
@@ -300,8 +299,8 @@ void add_occlusion(const BuiltRows& built, const RenderRequest& request, const H
     }
 }
 
-void add_mirrors(const BuiltRows& built, const RenderRequest& request, const HitQuery& query, RenderResult& result,
-                 Progress& progress) {
+void add_mirrors(const BuiltRows& built, const RenderRequest& request, const HitQuery& query, const OnDevice& device,
+                 RenderResult& result, Progress& progress) {
     const auto share = static_cast<float>(parameter_value(parameters, request.parameters, "mirror_share"));
     const SurfaceBuffer mirrored =
         mirrored_surfaces(query, *built.surface, *request.surfaces, request.threads, progress);
@@ -309,7 +308,7 @@ void add_mirrors(const BuiltRows& built, const RenderRequest& request, const Hit
     reflected.surfaces = &mirrored;
     reflected.keep_verdicts = false;
     reflected.on_region = {};
-    const RenderResult seen = lit(built, reflected, progress);
+    const RenderResult seen = lit(built, reflected, device, progress);
     for (std::size_t p = 0; p < seen.radiance.pixels.size(); ++p)
         if (request.surfaces->triangle[p] != no_triangle)
             result.radiance.pixels[p] = glm::mix(result.radiance.pixels[p], seen.radiance.pixels[p], share);
@@ -317,16 +316,16 @@ void add_mirrors(const BuiltRows& built, const RenderRequest& request, const Hit
 
 RenderResult render(const Structure& structure, const RenderRequest& request, Progress& progress) {
     const BuiltRows& built = built_rows(structure);
-    RenderResult result = lit(built, request, progress);
+    const OnDevice device = request.backend == Backend::vulkan ? on_device(built, progress) : OnDevice{};
+    RenderResult result = lit(built, request, device, progress);
     const Effect effect = effect_of(request.parameters);
     if (effect == Effect::off) return result;
     const auto start = std::chrono::steady_clock::now();
-    const auto device = request.backend == Backend::vulkan ? on_device(built, progress).array : nullptr;
-    const HitQuery query{built.array, make_query(built.array, request.parameters, {}), device.get()};
+    const HitQuery query{built.array, make_query(built.array, request.parameters, {}), device.array.get()};
     if (effect == Effect::ambient_occlusion)
         add_occlusion(built, request, query, result, progress);
     else
-        add_mirrors(built, request, query, result, progress);
+        add_mirrors(built, request, query, device, result, progress);
     result.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }

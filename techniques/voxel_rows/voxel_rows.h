@@ -2,7 +2,9 @@
 // Lights". The technique's row in the catalog, and what its own view and benchmark ask beyond that.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "techniques/rays/reference.h"
 #include "techniques/technique.h"
@@ -41,6 +43,26 @@ struct ServedRay {
     float angular_error_deg = 0.0f;
     std::vector<bool> bits;  ///< [N] of the row
 };
+
+/// A row that a ray was asked of: voxels first .. last of row (v, w); first > last: nothing to look at.
+struct AskedRow {
+    int v = 0, w = 0;
+    int first = 0, last = -1;
+    bool blocked = false;
+};
+
+/// An object that a ray was asked of (Algorithm 5, lines 4 to 10).
+struct AskedObject {
+    std::uint32_t instance = 0;    ///< of Objects::placed
+    bool met = false;              ///< the ray meets its bounds
+    int direction = 0;             ///< of its type's array, in its own frame
+    std::vector<AskedRow> rows{};  ///< none where the ray passes it by, one, or one for each half of the ray
+
+    bool blocked() const { return std::ranges::any_of(rows, &AskedRow::blocked); }
+};
+
+/// The objects that a recorded ray was asked of, in order: read out of its steps.
+std::vector<AskedObject> asked_objects(const Objects& objects, const Trace& trace);
 
 /// The ray of the request as the kernel serves it, recorded step by step: by the array, then by the objects until one
 /// is in the way.

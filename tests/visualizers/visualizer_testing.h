@@ -55,6 +55,40 @@ inline VoxelRowPicture furnished_picture() {
     return picture;
 }
 
+/// A solid object of 4 x 4 x 4 voxels of half a metre, turned a little, in a box of twice the size at `corner`; the ray
+/// is asked of its row (4, 4).
+inline ObjectPicture small_object(const std::string& name, vec3 corner, bool blocked) {
+    VoxelRowPicture rows;
+    rows.resolution = 8;
+    std::vector<std::uint8_t> occupied(8 * 8 * 8, 0);
+    for (int k = 0; k < 64; ++k)
+        occupied[static_cast<std::size_t>(((2 + k / 16) * 8 + 2 + k / 4 % 4) * 8 + 2 + k % 4)] = 1;
+    rows.occupied = std::make_shared<const std::vector<std::uint8_t>>(std::move(occupied));
+    rows.world_from_voxels = mat4(vec4(0.48f, 0.0f, -0.14f, 0.0f), vec4(0.0f, 0.5f, 0.0f, 0.0f),
+                                  vec4(0.14f, 0.0f, 0.48f, 0.0f), vec4(corner, 1.0f));
+    rows.v = rows.w = 4;
+    rows.first = blocked ? 1 : 6;
+    rows.last = 7;
+    const std::vector<vec3> bounds{corner, 8.0f * vec3(rows.world_from_voxels[0]),
+                                   8.0f * vec3(rows.world_from_voxels[1]), 8.0f * vec3(rows.world_from_voxels[2])};
+    return {name, bounds, blocked, std::make_shared<const VoxelRowPicture>(std::move(rows))};
+}
+
+/// An open row of what stands still, and three objects: one that the ray passes by, one that lets it by, one in the
+/// way.
+inline VoxelRowPicture picture_with_objects() {
+    VoxelRowPicture picture = furnished_picture();
+    picture.first = 7;
+    picture.last = 11;
+    ObjectPicture aside = small_object("instance 0", {1.0f, 11.0f, 5.0f}, false);
+    aside.rows = nullptr;
+    picture.objects = {aside, small_object("instance 1", {3.4f, 6.4f, 7.0f}, false),
+                       small_object("instance 2", {8.2f, 6.6f, 7.0f}, true)};
+    picture.blocked = true;
+    picture.truly_blocked = true;
+    return picture;
+}
+
 /// Only the solid voxels: nothing else can be mistaken for them.
 inline ViewState voxels_only() {
     ViewState state;

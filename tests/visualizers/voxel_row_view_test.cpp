@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <thread>
 
 #include "techniques/base/error.h"
+#include "tests/golden_pictures.h"
 #include "visualizer_testing.h"
 #include "visualizers/theme.h"
 #include "visualizers/view_camera.h"
@@ -207,28 +207,11 @@ TEST(VoxelRowViewDeathTest, SaysSoWhereThereIsNoOpenGl) {
 }
 
 TEST(VoxelRowView, LooksAsItDid) {
-    const std::filesystem::path golden =
-        std::filesystem::path(SIGHTLINES_SOURCE_FOLDER) / "tests/visualizers/golden/voxel-row.png";
     VoxelRowView view;
     ViewState state;
     state.labels = false;  // text depends on the fonts that are installed
     const ImageRgba8 image = render(view, furnished_picture(), state, {360, 240}, 2);
-    const std::filesystem::path candidate = std::filesystem::path(SIGHTLINES_TEST_OUTPUT_FOLDER) / "voxel-row.png";
-    const auto keep_candidate = [&] {
-        std::filesystem::create_directories(candidate.parent_path());
-        write_png(candidate, image);
-        return "the picture is not " + golden.string() + "; if " + candidate.string() + " is right, put it there";
-    };
-    if (!std::filesystem::exists(golden)) FAIL() << keep_candidate();
-    const ImageRgba8 expected = read_png(golden);
-    ASSERT_EQ(image.size, expected.size) << keep_candidate();
-    // Drivers round edges differently: a few pixels may differ, the picture may not.
-    std::size_t different = 0;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const glm::ivec4 difference = glm::abs(glm::ivec4(image.pixels[i]) - glm::ivec4(expected.pixels[i]));
-        different += std::max({difference.r, difference.g, difference.b, difference.a}) > 24;
-    }
-    if (different > image.pixels.size() / 100) FAIL() << different << " pixels differ: " << keep_candidate();
+    EXPECT_EQ(unlike_golden(image, "visualizers", "voxel-row"), "");
 }
 
 }  // namespace

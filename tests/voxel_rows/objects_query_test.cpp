@@ -279,6 +279,13 @@ TEST(ObjectsTrace, AsksOneObjectAfterTheOtherUntilOneIsInTheWay) {
             ASSERT_EQ(asked, by_array ? 0 : 5);
         }
         blocked += recorded.blocked && !by_array;
+        const std::vector<AskedObject> objects_asked = asked_objects(objects(fixture.structure), recorded);
+        ASSERT_EQ(static_cast<std::ptrdiff_t>(objects_asked.size()), asked);
+        for (std::size_t i = 0; i < objects_asked.size(); ++i) {
+            ASSERT_EQ(objects_asked[i].instance, i);
+            ASSERT_EQ(objects_asked[i].blocked(), recorded.blocked && i + 1 == objects_asked.size());
+            ASSERT_TRUE(objects_asked[i].met || objects_asked[i].rows.empty());
+        }
     }
     EXPECT_GT(blocked, 100);
 }
@@ -304,6 +311,32 @@ TEST(ObjectsTrace, ShowsTheObjectAndItsRowWhereTheyAreInTheWorld) {
         }
     }
     EXPECT_GT(rows, 50);
+}
+
+TEST(ObjectsTrace, TheRowThatIsReadOutOfTheStepsIsTheOneThatBlocks) {
+    for (const double subrays : {1.0, 2.0}) {
+        const Fixture fixture(scattered_places(5, 8), {{"subrays", subrays}});
+        const RowArray& type = objects(fixture.structure).types[0];
+        int rows = 0;
+        for (std::uint32_t k = 0; k < 600; ++k) {
+            const Trace recorded = technique().trace(fixture.structure, trace_request(fixture, k));
+            for (const AskedObject& asked : asked_objects(objects(fixture.structure), recorded)) {
+                if (asked.rows.empty()) continue;
+                ASSERT_EQ(asked.rows.size(), static_cast<std::size_t>(subrays));
+                const std::vector<std::uint8_t> occupied = unpack_voxelization(type, asked.direction);
+                const auto n = static_cast<std::size_t>(type.grid.resolution);
+                for (const AskedRow& row : asked.rows) {
+                    const auto first = (static_cast<std::size_t>(row.w) * n + static_cast<std::size_t>(row.v)) * n;
+                    bool set = false;
+                    for (int u = row.first; u <= row.last; ++u)
+                        set = set || occupied[first + static_cast<std::size_t>(u)] != 0;
+                    ASSERT_EQ(row.blocked, set);
+                    ++rows;
+                }
+            }
+        }
+        EXPECT_GT(rows, 100);
+    }
 }
 
 TEST(ObjectsTrace, NamesTheKernelsOwnLines) {

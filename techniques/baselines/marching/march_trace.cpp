@@ -5,6 +5,7 @@
 #include "techniques/baselines/marching/voxel_grid.h"
 #include "techniques/baselines/trace_values.h"
 #include "techniques/rays/light_records.h"
+#include "techniques/trace_boxes.h"
 
 namespace sightlines::baselines {
 namespace {
@@ -14,10 +15,8 @@ namespace kernel = recording_kernel;
 /// Voxels first .. last of a row, or one voxel, as a box in the world.
 TraceGeometry voxel_box(const char* name, const VoxelGrid& grid, ivec3 first, int count) {
     const vec3 size = 1.0f / grid.voxels_per_metre;
-    return {name,
-            TraceShape::box,
-            {grid.lowest + vec3(first) * size, vec3(static_cast<float>(count) * size.x, 0.0f, 0.0f),
-             vec3(0.0f, size.y, 0.0f), vec3(0.0f, 0.0f, size.z)}};
+    return box_geometry(name,
+                        {grid.lowest + vec3(first) * size, grid.lowest + vec3(first + ivec3(count, 1, 1)) * size});
 }
 
 /// Undoes voxel_number().
