@@ -1,5 +1,7 @@
 // Wang 2017, tables 1 to 4 and 9 and Figure 7: how many rays are answered wrongly.
+#include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "app/bench_paper.h"
 #include "app/bench_tables.h"
@@ -31,17 +33,18 @@ Variant imperfect_maps(double points) { return {"imperfect_shadow_maps", {{"poin
 /// take longer.
 int points_in_equal_time(const std::string& scene, BenchRun& run, Results& results, Progress& progress) {
     std::string device;
-    const auto seconds = [&](const Variant& variant) {
-        const Prepared prepared = prepare(session_of(run, scene, variant), results, progress);
-        return median_seconds(run, {[&] { return render_seconds(prepared, results, progress, device); }}, progress)[0];
+    const Prepared rows = prepare(session_of(run, scene, rows_for(scene)), results, progress);
+    const auto fits = [&](int points) {
+        const Prepared maps = prepare(session_of(run, scene, imperfect_maps(points)), results, progress);
+        const std::vector<double> medians =
+            median_seconds(run,
+                           {[&] { return render_seconds(rows, results, progress, device); },
+                            [&] { return render_seconds(maps, results, progress, device); }},
+                           progress);
+        return medians[1] <= medians[0];
     };
-    const double rows_seconds = seconds(rows_for(scene));
-    int fitting = point_counts.front();
-    for (const int points : point_counts) {
-        if (seconds(imperfect_maps(points)) > rows_seconds) break;
-        fitting = points;
-    }
-    return fitting;
+    const auto end = std::ranges::partition_point(point_counts, fits);
+    return end == point_counts.begin() ? point_counts.front() : *std::prev(end);
 }
 
 }  // namespace

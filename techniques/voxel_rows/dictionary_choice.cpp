@@ -14,17 +14,16 @@ constexpr std::uint32_t most_worth = ~0u;
 /// Rows of one deal that are alike down-sampled.
 template <int length>
 struct Group {
-    RowBits<length> key, best_row;
-    std::uint64_t count = 0;        ///< of all of them together
-    std::uint32_t best_count = 0;   ///< of the most frequent one
-    std::uint32_t best_plus_1 = 0;  ///< its place in the deal; 0: a free place
+    RowBits<length> key;
+    std::uint32_t count = 0;        ///< of all of them together
+    std::uint32_t best_plus_1 = 0;  ///< the most frequent one's place in the deal; 0: a free place
 };
 
 template <int length>
-bool is_more_frequent(const DealtRow<length>& a, const Group<length>& b) {
-    if (a.count != b.best_count) return a.count > b.best_count;
-    const std::uint64_t hash_a = hash_row(a.row), hash_b = hash_row(b.best_row);
-    return hash_a != hash_b ? hash_a < hash_b : a.row < b.best_row;
+bool is_more_frequent(const DealtRow<length>& a, const DealtRow<length>& b) {
+    if (a.count != b.count) return a.count > b.count;
+    const std::uint64_t hash_a = hash_row(a.row), hash_b = hash_row(b.row);
+    return hash_a != hash_b ? hash_a < hash_b : a.row < b.row;
 }
 
 /// Adds each group's worth to the worth of its most frequent row. worth: [rows of the deal].
@@ -37,8 +36,10 @@ void add_worth_of_groups(const RowDeals<length>& rows, std::size_t deal, int ste
         std::size_t at = hash_row(key) & (groups.size() - 1);
         while (groups[at].best_plus_1 != 0 && groups[at].key != key) at = (at + 1) & (groups.size() - 1);
         Group<length>& group = groups[at];
-        if (group.best_plus_1 == 0 || is_more_frequent(row, group))
-            group = {key, row.row, group.count, row.count, k + 1};
+        if (group.best_plus_1 == 0 || is_more_frequent(row, rows[rows.first[deal] + group.best_plus_1 - 1])) {
+            group.key = key;
+            group.best_plus_1 = k + 1;
+        }
         group.count += row.count;
     }
     for (const Group<length>& group : groups) {
