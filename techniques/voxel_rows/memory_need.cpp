@@ -18,28 +18,28 @@ std::string array_text(int resolution, double angle_step_deg) {
     return text.str();
 }
 
-std::uint64_t needed_bytes(int resolution, double angle_step_deg, Asked asked) {
-    return asked == Asked::array ? array_bytes(resolution, angle_step_deg)
-                                 : compression_bytes(resolution, angle_step_deg);
+std::uint64_t needed_bytes(int resolution, double angle_step_deg, ArrayKind kind) {
+    return kind == ArrayKind::plain ? array_bytes(resolution, angle_step_deg)
+                                    : compression_bytes(resolution, angle_step_deg);
 }
 
 /// "256 voxels at 3 deg (7.64 GB)"
-std::string sized_text(int resolution, double angle_step_deg, Asked asked) {
+std::string sized_text(int resolution, double angle_step_deg, ArrayKind kind) {
     return array_text(resolution, angle_step_deg) + " (" +
-           compute::bytes_text(needed_bytes(resolution, angle_step_deg, asked)) + ")";
+           compute::bytes_text(needed_bytes(resolution, angle_step_deg, kind)) + ")";
 }
 
 /// The nearest choices that fit, one of a coarser step and one of a lower resolution; empty where nothing does.
-std::string what_fits(int resolution, double angle_step_deg, std::uint64_t available_bytes, Asked asked) {
+std::string what_fits(int resolution, double angle_step_deg, std::uint64_t available_bytes, ArrayKind kind) {
     std::string fits;
     for (const double step_deg : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0}) {
-        if (step_deg <= angle_step_deg || needed_bytes(resolution, step_deg, asked) > available_bytes) continue;
-        fits = sized_text(resolution, step_deg, asked);
+        if (step_deg <= angle_step_deg || needed_bytes(resolution, step_deg, kind) > available_bytes) continue;
+        fits = sized_text(resolution, step_deg, kind);
         break;
     }
     for (const int side : {192, 128, 96, 64, 48, 32}) {
-        if (side >= resolution || needed_bytes(side, angle_step_deg, asked) > available_bytes) continue;
-        fits += (fits.empty() ? "" : " or ") + sized_text(side, angle_step_deg, asked);
+        if (side >= resolution || needed_bytes(side, angle_step_deg, kind) > available_bytes) continue;
+        fits += (fits.empty() ? "" : " or ") + sized_text(side, angle_step_deg, kind);
         break;
     }
     return fits;
@@ -57,15 +57,16 @@ std::uint64_t compression_bytes(int resolution, double angle_step_deg) {
     return array_bytes(resolution, angle_step_deg) + counting_bytes(grid.rows(), grid.words_per_row, grid.rows() / 3);
 }
 
-void require_memory(int resolution, double angle_step_deg, std::uint64_t available_bytes, Asked asked) {
-    const std::uint64_t needed = needed_bytes(resolution, angle_step_deg, asked);
+void require_memory(int resolution, double angle_step_deg, std::uint64_t available_bytes, ArrayKind kind) {
+    const std::uint64_t needed = needed_bytes(resolution, angle_step_deg, kind);
     if (needed <= available_bytes) return;
-    const std::string fits = what_fits(resolution, angle_step_deg, available_bytes, asked);
-    throw EnvironmentError(
-        "memory",
-        "an array of " + array_text(resolution, angle_step_deg) + (asked == Asked::array ? "" : ", to be compressed,") +
-            " takes " + compute::bytes_text(needed) + ", and " + compute::bytes_text(available_bytes) + " are free",
-        fits.empty() ? "close other programs" : "what would fit: " + fits);
+    const std::string fits = what_fits(resolution, angle_step_deg, available_bytes, kind);
+    throw EnvironmentError("memory",
+                           "an array of " + array_text(resolution, angle_step_deg) +
+                               (kind == ArrayKind::plain ? "" : ", to be compressed,") + " takes " +
+                               compute::bytes_text(needed) + ", and " + compute::bytes_text(available_bytes) +
+                               " are free",
+                           fits.empty() ? "close other programs" : "what would fit: " + fits);
 }
 
 }  // namespace sightlines::voxel_rows

@@ -13,10 +13,11 @@ std::uint64_t array_bytes(int resolution, double angle_step_deg);
 std::uint64_t compression_bytes(int resolution, double angle_step_deg);
 
 /// What is to be made.
-enum class Asked { array, compressed_array };
+enum class ArrayKind { plain, compressed };
 
 /// EnvironmentError where that takes more than `available_bytes`: says what it would take, and which coarser step and
 /// which lower resolution would fit.
-void require_memory(int resolution, double angle_step_deg, std::uint64_t available_bytes, Asked asked = Asked::array);
+void require_memory(int resolution, double angle_step_deg, std::uint64_t available_bytes,
+                    ArrayKind kind = ArrayKind::plain);
 
 }  // namespace sightlines::voxel_rows

@@ -151,7 +151,7 @@ RowArray build_compressed(const BuildRequest& request, const BuildOptions& optio
     if (!folder.empty())
         if (std::optional<RowArray> ready = load_array(folder, key, make_grid(*request.scene, options)))
             return std::move(*ready);
-    require_memory(options.resolution, options.angle_step_deg, available_memory_bytes(), Asked::compressed_array);
+    require_memory(options.resolution, options.angle_step_deg, available_memory_bytes(), ArrayKind::compressed);
     RowArray array = compress(build_uncompressed(request, options, progress), dictionary, progress);
     try {
         if (!folder.empty()) save_array(folder, key, array, cache_limit_bytes);

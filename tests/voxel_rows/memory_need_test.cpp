@@ -9,9 +9,10 @@ namespace {
 
 constexpr std::uint64_t gigabyte = 1'000'000'000;
 
-std::string refusal(int resolution, double angle_step_deg, std::uint64_t available_bytes, Asked asked = Asked::array) {
+std::string refusal(int resolution, double angle_step_deg, std::uint64_t available_bytes,
+                    ArrayKind kind = ArrayKind::plain) {
     try {
-        require_memory(resolution, angle_step_deg, available_bytes, asked);
+        require_memory(resolution, angle_step_deg, available_bytes, kind);
     } catch (const EnvironmentError& error) {
         return error.what();
     }
@@ -40,8 +41,8 @@ TEST(MemoryNeed, CompressingTakesMoreThanTheArrayAndFitsLess) {
     const std::uint64_t enough = compression_bytes(128, 2.0);
     EXPECT_GT(enough, array_bytes(128, 2.0) + 2 * gigabyte);
     EXPECT_LT(enough, array_bytes(128, 2.0) + 6 * gigabyte);
-    EXPECT_EQ(refusal(128, 2.0, enough, Asked::compressed_array), "accepted");
-    const std::string text = refusal(256, 2.0, 20 * gigabyte, Asked::compressed_array);
+    EXPECT_EQ(refusal(128, 2.0, enough, ArrayKind::compressed), "accepted");
+    const std::string text = refusal(256, 2.0, 20 * gigabyte, ArrayKind::compressed);
     EXPECT_NE(text.find("256 voxels at 2 deg, to be compressed, takes"), std::string::npos) << text;
     EXPECT_NE(text.find("192 voxels at 2 deg"), std::string::npos) << text;
     EXPECT_EQ(refusal(256, 2.0, 20 * gigabyte), "accepted");
