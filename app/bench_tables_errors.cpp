@@ -66,12 +66,9 @@ void errors_by_scene(MeasuredTable& table, BenchRun& run, Results& results, Prog
     }
     table.notes.push_back(
         "Voxel rows are compressed, except in scenes that deform (bear, park). Imperfect shadow maps have 11,000 "
-        "points and 128 texels a side. Errors are shares of the rays that are asked, which are those to lights in "
-        "front "
-        "of the surface; of all lights: as the paper's example counts, where a light behind it is a right answer. "
-        "Equal "
-        "time: the most points with which a picture takes no longer than by voxel rows, "
-        "without building.");
+        "points and 128 texels a side. Errors are shares of the rays that are asked, to lights in front of the "
+        "surface; of all lights: as the paper's example counts, where a light behind it is a right answer. Equal "
+        "time: the most points with which a picture takes no longer than by voxel rows, without building.");
 }
 
 void errors_by_lights(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress) {
