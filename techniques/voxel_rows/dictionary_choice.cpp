@@ -66,7 +66,7 @@ HugeBuffer worth_of_rows(const RowDeals<length>& rows, const DictionaryOptions& 
     return worth;
 }
 
-/// Some of the deals, for one thread.
+/// Some of the rows, for one thread.
 struct Slice {
     std::size_t first_row, end_row;
 };
