@@ -26,7 +26,7 @@ struct FieldScene {
 
 /// One way to make and to use a field.
 struct FieldWay {
-    std::string suffix;  ///< of the quantities' names: "", " (plain)"
+    std::string suffix;  ///< of the quantities' names: "", " (plain)", " (finer)"
     visibility_field::BakeOptions bake;
     visibility_field::RayOrder order = visibility_field::RayOrder::direction;
     visibility_field::Culling culling = visibility_field::Culling::label;
@@ -39,6 +39,9 @@ int field_samples(const BenchRun& run, int number);
 /// The library's defaults, and after them the paper's choices: random points, dilated by a texel, equation 8, rays in
 /// the order of pixels. Few points with --quick.
 std::vector<FieldWay> field_ways(const BenchRun& run, const Results& results);
+
+/// The same with masks of 32 x 32 texels.
+FieldWay with_finer_masks(FieldWay way);
 
 /// What all measurements of one of the field's tables go through.
 struct FieldMeasuring {

@@ -94,9 +94,9 @@ void field_pictures(MeasuredTable& table, BenchRun& run, Results& results, Progr
     FieldMeasuring m{table, run, results, progress};
     for (const std::string& name : field_scenes(m, "atrium")) {
         const auto scene = field_scene(m, name);
-        for (const FieldWay& way : field_ways(run, results)) {
+        const std::vector<FieldWay> ways = field_ways(run, results);
+        for (const FieldWay& way : {ways[0], with_finer_masks(ways[0]), ways[1]})
             add_picture(m, *scene, way, field_samples(run, 5));
-        }
     }
     finish_field_table(m, {time_without, time_with, speed_up}, "");
     add_rmse_note(table);
@@ -219,20 +219,23 @@ void field_memory(MeasuredTable& table, BenchRun& run, Results& results, Progres
     constexpr FieldFigure packed{"memory, two bits a texel", "KiB", 0}, unique{"memory, alike masks once", "KiB", 0};
     for (const std::string& name : field_scenes(m, "atrium")) {
         const auto scene = field_scene(m, name);
-        FieldWay way = field_ways(run, results).front();
-        for (const int cell_cm : cells_cm) {
-            const std::string setting = cells_text(cell_cm);
-            say(run, table, scene->label + ", cells of " + setting);
-            way.bake.cell_m = 0.01f * static_cast<float>(cell_cm);
-            const auto field = bake_field(m, *scene, way.bake);
-            if (!field) continue;
-            const double bricks = static_cast<double>(field->bricks.size() * sizeof(FieldBrick));
-            const double masks = 8.0 * field->cells * field->shape.words_per_mask;
-            add_field_figure(m, *scene, way, dense, kibibytes(static_cast<double>(dense_bytes(field->shape))), cell_cm,
-                             setting);
-            add_field_figure(m, *scene, way, packed, kibibytes(bricks + masks), cell_cm, setting);
-            add_field_figure(m, *scene, way, unique, kibibytes(static_cast<double>(field->bytes())), cell_cm, setting);
-        }
+        const FieldWay ours = field_ways(run, results).front();
+        for (const FieldWay& each : {ours, with_finer_masks(ours)})
+            for (const int cell_cm : cells_cm) {
+                FieldWay way = each;
+                const std::string setting = cells_text(cell_cm);
+                say(run, table, scene->label + ", cells of " + setting + way.suffix);
+                way.bake.cell_m = 0.01f * static_cast<float>(cell_cm);
+                const auto field = bake_field(m, *scene, way.bake);
+                if (!field) continue;
+                const double bricks = static_cast<double>(field->bricks.size() * sizeof(FieldBrick));
+                const double masks = 8.0 * field->cells * field->shape.words_per_mask;
+                add_field_figure(m, *scene, way, dense, kibibytes(static_cast<double>(dense_bytes(field->shape))),
+                                 cell_cm, setting);
+                add_field_figure(m, *scene, way, packed, kibibytes(bricks + masks), cell_cm, setting);
+                add_field_figure(m, *scene, way, unique, kibibytes(static_cast<double>(field->bytes())), cell_cm,
+                                 setting);
+            }
     }
     finish_field_table(m, {dense}, "cm");
     table.notes.emplace_back(

@@ -30,6 +30,7 @@ void check_bake(const Scene& scene, const BakeOptions& options) {
     if (!(options.cell_m > 0.0f) || !std::isfinite(options.cell_m)) refuse("cell size", "more than 0 m");
     if (options.mask_size < smallest_mask || options.mask_size > largest_mask) refuse("mask size", "8 to 64 texels");
     if (options.rays < 1 || options.rays > most_rays) refuse("rays per sample", "1 to 4,096");
+    if (options.probes < 0 || options.probes > most_rays) refuse("probes", "0 to 4,096");
     if (!(options.dilation >= 0.0f && options.dilation <= 2.0f)) refuse("dilation", "0 to 2 texels");
     require_memory(scene, options, available_memory_bytes());
 }
@@ -44,8 +45,9 @@ VisibilityField bake(const Scene& scene, const EmbreeScene& embree, const BakeOp
     const auto start = std::chrono::steady_clock::now();
     CellPoints points = place_points(scene, field.shape, options, progress);
     field.place_seconds = seconds_since(start);
-    assemble(points, cast_cells(embree, points, options, progress), field);
-    field.rays = field.points * static_cast<std::uint64_t>(options.rays);
+    const FinishedMasks masks = cast_cells(embree, points, options, progress);
+    assemble(points, masks, field);
+    field.rays = field.points * static_cast<std::uint64_t>(options.rays) + masks.probes;
     field.cast_seconds = seconds_since(start) - field.place_seconds;
     if (kept != nullptr) *kept = std::move(points);
     return field;

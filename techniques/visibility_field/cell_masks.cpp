@@ -1,11 +1,13 @@
 #include "techniques/visibility_field/cell_masks.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "techniques/base/parallel.h"
 #include "techniques/visibility_field/bake.h"
 #include "techniques/visibility_field/casting.h"
+#include "techniques/visibility_field/rim_probes.h"
 
 namespace sightlines::visibility_field {
 namespace {
@@ -21,11 +23,33 @@ MaskRows finished(MaskRows parts, const BakeOptions& options) {
     return reduced(parts, options.mask_size, steps);
 }
 
+MaskPair finished(const MaskPair& parts, const BakeOptions& options) {
+    return {finished(parts.visible, options), finished(parts.occluded, options)};
+}
+
+/// The same, but what rays find at the rims in place of dilation. Adds to `cast`.
+MaskPair probed(const EmbreeScene& embree, std::span<const SurfacePoint> points, std::uint32_t cell,
+                const MaskPair& parts, const BakeOptions& options, std::uint64_t& cast) {
+    const int size = options.mask_size, steps = casting_steps(size);
+    MaskPair masks{reduced(parts.visible, size, steps), reduced(parts.occluded, size, steps)};
+    const ProbeLimits limits{options.probes, points.size() * static_cast<std::uint64_t>(options.rays)};
+    cast += probe_rims(embree, points, size, limits, options.seed, cell, masks);
+    return masks;
+}
+
 /// Equation 8, or the smaller region.
 bool occlusion_label(const MaskRows& visible, const MaskRows& occluded, const BakeOptions& options) {
     const int hidden = texels_set(occluded);
     if (options.label == LabelRule::texels) return 2 * hidden > options.mask_size * options.mask_size;
     return hidden > texels_set(visible);
+}
+
+/// Finds the label of a cell's finished masks and keeps them as those of cell `cell`.
+void keep_cell(const MaskPair& pair, const BakeOptions& options, std::size_t cell, FinishedMasks& masks) {
+    const std::size_t words = words_per_mask(options.mask_size);
+    masks.labels[cell] = occlusion_label(pair.visible, pair.occluded, options);
+    pack(pair.visible, options.mask_size, std::span(masks.words).subspan(2 * cell * words, words));
+    pack(pair.occluded, options.mask_size, std::span(masks.words).subspan((2 * cell + 1) * words, words));
 }
 
 }  // namespace
@@ -34,18 +58,10 @@ int casting_steps(int mask_size) { return largest_mask / mask_size; }
 
 int casting_size(const BakeOptions& options) { return options.mask_size * casting_steps(options.mask_size); }
 
-void finish_cell(const MaskPair& parts, const BakeOptions& options, std::size_t cell, FinishedMasks& masks) {
-    const std::size_t words = words_per_mask(options.mask_size);
-    const MaskRows visible = finished(parts.visible, options), occluded = finished(parts.occluded, options);
-    masks.labels[cell] = occlusion_label(visible, occluded, options);
-    pack(visible, options.mask_size, std::span(masks.words).subspan(2 * cell * words, words));
-    pack(occluded, options.mask_size, std::span(masks.words).subspan((2 * cell + 1) * words, words));
-}
-
 void add_cell(const MaskPair& parts, const BakeOptions& options, FinishedMasks& masks) {
     masks.labels.push_back(0);
     masks.words.resize(2 * masks.labels.size() * words_per_mask(options.mask_size));
-    finish_cell(parts, options, masks.labels.size() - 1, masks);
+    keep_cell(finished(parts, options), options, masks.labels.size() - 1, masks);
 }
 
 FinishedMasks cast_cells(const EmbreeScene& embree, const CellPoints& points, const BakeOptions& options,
@@ -57,8 +73,10 @@ FinishedMasks cast_cells(const EmbreeScene& embree, const CellPoints& points, co
     if (blocked != nullptr) blocked->resize(points.points.size() * words);
     progress.begin("casting rays from point samples", static_cast<std::int64_t>(points.points.size()));
     const auto tasks = static_cast<std::int64_t>((cells + cells_per_task - 1) / cells_per_task);
+    std::atomic<std::uint64_t> probes{0};
     parallel_for(tasks, options.threads, [&](std::int64_t task) {
         CastingRoom room(set);
+        std::uint64_t own_probes = 0;
         const std::size_t begin = static_cast<std::size_t>(task) * cells_per_task;
         for (std::size_t cell = begin; cell < std::min(begin + cells_per_task, cells); ++cell) {
             MaskPair parts;
@@ -67,10 +85,16 @@ FinishedMasks cast_cells(const EmbreeScene& embree, const CellPoints& points, co
                           parts.visible, parts.occluded);
                 if (blocked != nullptr) std::copy_n(room.blocked.begin(), words, &(*blocked)[k * words]);
             }
-            finish_cell(parts, options, cell, masks);
-            progress.advance(points.first[cell + 1] - points.first[cell]);
+            const auto own =
+                std::span(points.points).subspan(points.first[cell], points.first[cell + 1] - points.first[cell]);
+            keep_cell(options.probes > 0 ? probed(embree, own, points.cells[cell], parts, options, own_probes)
+                                         : finished(parts, options),
+                      options, cell, masks);
+            progress.advance(static_cast<std::int64_t>(own.size()));
         }
+        probes += own_probes;
     });
+    masks.probes = probes;
     return masks;
 }
 

@@ -25,8 +25,8 @@ constexpr std::size_t words_per_mask(int mask_size) {
     return (static_cast<std::size_t>(mask_size * mask_size) + 31) / 32;
 }
 
-/// The texels of a cell that rays fell into, casting_size along a side. Merging as the rays fall (equations 5 and 6) is
-/// the OR of the points' own masks.
+/// A cell's two masks. While rays fall: casting_size along a side; merging as they fall (equations 5 and 6) is the OR
+/// of the points' own masks.
 struct MaskPair {
     MaskRows visible{}, occluded{};
 };
@@ -35,16 +35,15 @@ struct MaskPair {
 struct FinishedMasks {
     std::vector<std::uint32_t> words;  ///< [cells][visible, occluded][words_per_mask]
     std::vector<std::uint8_t> labels;  ///< [cells]
+    std::uint64_t probes = 0;          ///< rays into texels at the masks' rims
 };
 
-/// Dilates and reduces a cell's texels, finds its label and keeps all that as the masks of cell `cell`.
-void finish_cell(const MaskPair& parts, const BakeOptions& options, std::size_t cell, FinishedMasks& masks);
-
-/// The same as those of one more cell.
+/// Dilates and reduces the texels that a cell's rays fell into, finds its label and keeps all that as the masks of one
+/// more cell.
 void add_cell(const MaskPair& parts, const BakeOptions& options, FinishedMasks& masks);
 
-/// Algorithm 1, lines 5 to 28, for all cells: rays cast from their samples. `blocked`: where not null, gets the answer
-/// to each ray, [points][words_of_rays].
+/// Algorithm 1, lines 5 to 28, for all cells: rays cast from their samples, rims probed or else dilated. `blocked`:
+/// where not null, gets the answer to each ray, [points][words_of_rays].
 FinishedMasks cast_cells(const EmbreeScene& embree, const CellPoints& points, const BakeOptions& options,
                          Progress& progress, std::vector<std::uint32_t>* blocked = nullptr);
 

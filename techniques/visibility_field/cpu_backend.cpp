@@ -111,6 +111,7 @@ HWY_INLINE Sorted sort_samples(const FieldShape& shape, const EnvironmentRequest
     const bool sum_all = subtract && request.unshadowed == Unshadowed::sampled;
     HarmonicMoments moments = wide::no_moments();
     Sorted sorted;
+    std::size_t known_open = 0;
     std::size_t start = pixel.first_group * lanes;
     for (std::size_t done = 0; done < size; done += lanes, start = start + lanes == size ? 0 : start + lanes) {
         const Vec3 direction = sample_direction(pattern, pixel, start);
@@ -128,8 +129,9 @@ HWY_INLINE Sorted sort_samples(const FieldShape& shape, const EnvironmentRequest
         }
         sorted.below += static_cast<std::size_t>(std::popcount(below));
         if constexpr (known == Known::both_regions) {
-            add(moments, direction, decision.open);
-            sorted.known_blocked += static_cast<std::size_t>(std::popcount(wide::bits_of(decision.blocked && above)));
+            const std::uint32_t open = wide::bits_of(decision.open);
+            if (open != 0) add(moments, direction, decision.open);
+            known_open += static_cast<std::size_t>(std::popcount(open));
         }
         if (known == Known::one_region && subtract) {
             // With the samples' own mean: all but those below. With the analytic one: less those below.
@@ -140,8 +142,8 @@ HWY_INLINE Sorted sort_samples(const FieldShape& shape, const EnvironmentRequest
         }
     }
     if (known == Known::both_regions || subtract) sorted.known = summed(moments);
-    if (known == Known::one_region && pixel.cell.label == 1)  // all that are not traced
-        sorted.known_blocked = static_cast<std::size_t>(pattern.samples) - sorted.below - sorted.rays;
+    if (known == Known::both_regions || (known == Known::one_region && pixel.cell.label == 1))  // all others
+        sorted.known_blocked = static_cast<std::size_t>(pattern.samples) - sorted.below - sorted.rays - known_open;
     return sorted;
 }
 

@@ -204,6 +204,12 @@ MaskNumbers numbers_of(const VisibilityField& field) {
     return numbers;
 }
 
+/// Masks of moments are dilated: what probes found would have to be found again wherever something moved.
+BakeOptions without_probes(BakeOptions options) {
+    options.probes = 0;
+    return options;
+}
+
 BakeOptions with_share(BakeOptions options, double share) {
     options.points = static_cast<std::uint32_t>(std::lround(options.points / (1.0 + share)));
     return options;
@@ -229,7 +235,7 @@ std::shared_ptr<const FixedField> bake_fixed(const Scene& scene, const BakeOptio
     fixed->lift_m = lift_m(*embree);
     fixed->points = place_points(scene, shape, with_share(options, fixed->changing_share), progress, PartChoice::fixed);
     const CellPoints& points = fixed->points;
-    FinishedMasks masks = cast_cells(*embree, points, options, progress, &fixed->blocked);
+    FinishedMasks masks = cast_cells(*embree, points, without_probes(options), progress, &fixed->blocked);
     assemble(points, masks, fixed->field);
     fixed->mask_numbers = numbers_of(fixed->field);
     fixed->labels = std::move(masks.labels);

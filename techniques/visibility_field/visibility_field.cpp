@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 2> surface_kinds{"diffuse", "glossy"};
 constexpr std::array<std::string_view, 4> samplings{"cosine", "brdf", "map", "both"};
 constexpr std::array<std::string_view, 2> light_sources{"harmonics", "map"};
 
-constexpr std::array<Parameter, 17> parameters{{
+constexpr std::array<Parameter, 18> parameters{{
     {"cell_size", "Cell size", "m", ParameterKind::real, ParameterAffects::structure, 0.01, 1000, 0.5, 0.5,
      "Side of a cell of the grid."},
     {"mask_size", "Mask size", "texels", ParameterKind::integer, ParameterAffects::structure, 8, 64, 18, 18,
@@ -35,9 +35,14 @@ constexpr std::array<Parameter, 17> parameters{{
      std::nullopt, "Points of the surface from which rays are cast into the masks."},
     {"rays_per_point", "Rays per point", "", ParameterKind::integer, ParameterAffects::structure, 1, 4096, 128,
      std::nullopt, "Cast from each point sample, over the hemisphere."},
+    {"probes", "Rays at rims", "", ParameterKind::integer, ParameterAffects::structure, 0, 4096, 128, 0,
+     "At most, from a cell's points into each texel beside those that its masks have set, in place of dilation. 0: "
+     "masks "
+     "are dilated, as always in scenes that move."},
     {"dilation", "Dilation", "texels", ParameterKind::real, ParameterAffects::structure, 0, 2, 0.33, 1,
-     "By how much both masks grow, so that directions between the rays count too; in steps of a third of a texel for "
-     "masks of 18."},
+     "By how much both masks grow where no rays are spent at their rims, so that directions between the rays count "
+     "too; "
+     "in steps of a third of a texel for masks of 18."},
     {"placement", "Placement", "", ParameterKind::choice, ParameterAffects::structure, 0, 1, 1, 0,
      "Where point samples lie: at random by area, as in the paper, or spread so that every cell and triangle has its "
      "share.",
@@ -104,6 +109,7 @@ BakeOptions bake_options(const BuildRequest& request) {
     options.mask_size = static_cast<int>(value_of(chosen, "mask_size"));
     options.points = static_cast<std::uint32_t>(value_of(chosen, "points"));
     options.rays = static_cast<int>(value_of(chosen, "rays_per_point"));
+    options.probes = static_cast<int>(value_of(chosen, "probes"));
     options.dilation = static_cast<float>(value_of(chosen, "dilation"));
     options.placement = choice_of<Placement>(chosen, "placement");
     options.label = choice_of<LabelRule>(chosen, "label_rule");

@@ -161,6 +161,7 @@ TEST(RayPicture, ShowsThePickedCellInsteadOfTheRaysOwn) {
 TEST(RayPicture, MergesTheCellsSamplesIntoWhatTheFieldHolds) {
     Made made;
     Session session = small_session("visibility_field");
+    session.parameters["visibility_field"]["probes"] = 0.0;
     session.parameters["visibility_field"]["dilation"] = 0.0;
     const RayPicture stored = made.picture(session);
     session.views = {View{"merging", {}}};

@@ -92,6 +92,7 @@ TEST_P(Bake, GivesTheMasksOfPlainLoopsBitForBit) {
     BakeOptions options = testing::small_bake();
     options.mask_size = GetParam();
     options.points = 800;
+    options.probes = 0;
     options.dilation = 1.0f;
     const VisibilityField field = testing::baked(prepared.scene, *prepared.embree, options);
     const CellPoints points = place_points(prepared.scene, field.shape, options, prepared.progress);
@@ -141,6 +142,7 @@ TEST(BakeLabels, FollowEquationEightWhereAsked) {
 TEST(BakeDilation, ByMoreSetsMore) {
     Prepared prepared;
     BakeOptions options = testing::small_bake();
+    options.probes = 0;
     std::vector<int> set;
     for (const float dilation : {0.0f, 1.0f / 3.0f, 1.0f, 2.0f}) {
         options.dilation = dilation;
@@ -207,6 +209,7 @@ TEST(BakeResult, OfAPlaneUnderTheSkySeesAllOfTheUpperHalf) {
 TEST(BakeSteps, OfACellMergeToItsMasks) {
     Prepared prepared;
     BakeOptions options = testing::small_bake();
+    options.probes = 0;
     options.dilation = 0.0f;
     CellPoints points;
     const VisibilityField field = bake(prepared.scene, *prepared.embree, options, prepared.progress, &points);
@@ -244,6 +247,7 @@ TEST(BakeLimits, RefuseOptionsOutOfRange) {
     EXPECT_NE(refusal([](BakeOptions& o) { o.mask_size = 7; }).find("mask size"), std::string::npos);
     EXPECT_NE(refusal([](BakeOptions& o) { o.mask_size = 65; }).find("mask size"), std::string::npos);
     EXPECT_NE(refusal([](BakeOptions& o) { o.rays = 0; }).find("rays per sample"), std::string::npos);
+    EXPECT_NE(refusal([](BakeOptions& o) { o.probes = -1; }).find("probes"), std::string::npos);
     EXPECT_NE(refusal([](BakeOptions& o) { o.dilation = 3.0f; }).find("dilation"), std::string::npos);
     EXPECT_EQ(refusal([](BakeOptions&) {}), "accepted");
 }

@@ -24,8 +24,9 @@ struct Prepared {
     EnvironmentRequest request;
     Progress progress;
 
-    explicit Prepared(std::uint32_t count = 1500) {
+    explicit Prepared(std::uint32_t count = 1500, int probes = BakeOptions().probes) {
         options.points = count;
+        options.probes = probes;
         field = bake(scene, *embree, options, progress, &points);
         request.surfaces = &surfaces;
         request.pattern = &pattern;
@@ -110,7 +111,7 @@ TEST(FieldTrace, NamesTheKernelsOwnLinesAndShowsTheCell) {
 }
 
 TEST(FieldTrace, FindsTheSampleThatShouldHaveSeenAWrongRay) {
-    Prepared prepared;
+    Prepared prepared(1500, 0);
     const WrongRays wrong = find_wrong_rays(prepared.field, *prepared.embree, prepared.request, 40, prepared.progress);
     int seen = 0;
     for (const WrongRay& ray : wrong.first) {
