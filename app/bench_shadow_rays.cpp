@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <tuple>
 
 #include "techniques/base/error.h"
 #include "techniques/base/huge_buffer.h"
@@ -10,6 +11,8 @@
 
 namespace sightlines {
 namespace {
+
+constexpr const char* uncompressed_key = "_uncompressed";
 
 /// A row of the table and how it is measured once.
 struct Contestant {
@@ -29,6 +32,31 @@ bool measure(Contestant& contestant, bool counts, std::vector<std::string>& note
         notes.push_back(contestant.row.title + " is left out: " + error.what());
         return false;
     }
+}
+
+/// The array on both backends. `request` must outlive them.
+void add_rows(std::vector<Contestant>& contestants, const Shared<BuiltStructure>& structure,
+              const RenderRequest& request, const std::string& key_end, const std::string& title_end) {
+    const auto on = [&](Backend backend) {
+        return [structure, &request, backend] {
+            RenderRequest asked = request;
+            asked.backend = backend;
+            return voxel_rows::count_blocked(structure->value.structure, asked);
+        };
+    };
+    contestants.push_back({{"voxel_rows_cpu" + key_end, "voxel rows, CPU" + title_end, 0, 0, {}}, on(Backend::cpu)});
+    contestants.push_back(
+        {{"voxel_rows_vulkan" + key_end, "voxel rows, Vulkan" + title_end, 0, 0, {}}, on(Backend::vulkan)});
+}
+
+/// How many times as long the compressed array takes as the uncompressed one; null where either was not asked.
+Json compression_cost(const ShadowRayBench& bench, const std::string& key) {
+    const auto rate_of = [&](const std::string& of) {
+        const auto row = std::ranges::find(bench.rows, of, &BenchRow::key);
+        return row == bench.rows.end() ? std::nullopt : median_rays_per_second(*row);
+    };
+    const auto compressed = rate_of(key), uncompressed = rate_of(key + uncompressed_key);
+    return compressed && uncompressed ? Json(*uncompressed / *compressed) : Json();
 }
 
 /// The best median of Embree's variants, rays a second.
@@ -58,9 +86,8 @@ std::optional<double> median_rays_per_second(const BenchRow& row) {
 }
 
 ShadowRayBench bench_shadow_rays(const Session& session, int repetitions, Results& results, Progress& progress) {
-    Session on_cpu = session, on_vulkan = session;
+    Session on_cpu = session;
     on_cpu.backend = BackendChoice::cpu;
-    on_vulkan.backend = BackendChoice::vulkan;
     const auto scene = results.scene(session, progress);
     const auto surfaces = results.surfaces(session, progress);
     const auto lights = results.lights(session, progress);
@@ -69,28 +96,27 @@ ShadowRayBench bench_shadow_rays(const Session& session, int repetitions, Result
     const double embree_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const auto structure = results.structure(on_cpu, progress);
 
-    const auto rows_on = [&](Backend backend) {
-        return [&, backend] {
-            RenderRequest request;
-            request.surfaces = &surfaces->value;
-            request.lights = lights->value;
-            request.parameters = technique_parameters(session);
-            request.backend = backend;
-            request.threads = results.threads();
-            return voxel_rows::count_blocked(structure->value.structure, request);
-        };
-    };
+    RenderRequest request;
+    request.surfaces = &surfaces->value;
+    request.lights = lights->value;
+    request.parameters = technique_parameters(session);
+    request.threads = results.threads();
+    std::vector<Contestant> contestants;
+    add_rows(contestants, structure, request, "", "");
+    if (voxel_rows::is_compressed(request.parameters)) {
+        Session plain = on_cpu;
+        plain.parameters[plain.technique]["compression"] = 0.0;
+        add_rows(contestants, results.structure(plain, progress), request, uncompressed_key, ", uncompressed");
+    }
     const auto embree_by = [&](EmbreeVariant variant) {
         return
             [&, variant] { return count_blocked(*embree, variant, surfaces->value, lights->value, results.threads()); };
     };
-    std::vector<Contestant> contestants = {
-        {{"voxel_rows_cpu", "voxel rows, CPU", 0, 0, {}}, rows_on(Backend::cpu)},
-        {{"voxel_rows_vulkan", "voxel rows, Vulkan", 0, 0, {}}, rows_on(Backend::vulkan)},
-        {{"embree_1", "Embree, single rays", 0, 0, {}}, embree_by(EmbreeVariant::single)},
-        {{"embree_8", "Embree, packets of 8", 0, 0, {}}, embree_by(EmbreeVariant::packet_8)},
-        {{"embree_16", "Embree, packets of 16", 0, 0, {}}, embree_by(EmbreeVariant::packet_16)},
-        {{"embree_stream", "Embree, stream", 0, 0, {}}, embree_by(EmbreeVariant::stream)}};
+    for (const auto& [variant, key, title] : {std::tuple{EmbreeVariant::single, "embree_1", "Embree, single rays"},
+                                              {EmbreeVariant::packet_8, "embree_8", "Embree, packets of 8"},
+                                              {EmbreeVariant::packet_16, "embree_16", "Embree, packets of 16"},
+                                              {EmbreeVariant::stream, "embree_stream", "Embree, stream"}})
+        contestants.push_back({{key, title, 0, 0, {}}, embree_by(variant)});
 
     ShadowRayBench bench{session,
                          scene->value.triangles.size(),
@@ -132,6 +158,9 @@ Json json_from_bench(const ShadowRayBench& bench) {
             {"repetitions", bench.rows.front().seconds.size()},
             {"mrays_per_second", rates},
             {"ratio", {{"cpu", ratio(bench, "voxel_rows_cpu")}, {"vulkan", ratio(bench, "voxel_rows_vulkan")}}},
+            {"compression_cost",
+             {{"cpu", compression_cost(bench, "voxel_rows_cpu")},
+              {"vulkan", compression_cost(bench, "voxel_rows_vulkan")}}},
             {"blocked_percent", blocked},
             {"seconds", {{"build", bench.build_seconds}, {"embree_build", bench.embree_build_seconds}}},
             {"memory_bytes", {{"structure", bench.structure_bytes}, {"peak", bench.peak_bytes}}}};

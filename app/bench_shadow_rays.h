@@ -23,12 +23,13 @@ struct ShadowRayBench {
     std::size_t triangles = 0, lights = 0;
     double build_seconds = 0.0, embree_build_seconds = 0.0;
     std::uint64_t structure_bytes = 0, peak_bytes = 0;
-    std::vector<BenchRow> rows;  ///< both backends, then Embree's variants
+    std::vector<BenchRow> rows;  ///< both backends, compressed and uncompressed, then Embree's variants
     std::vector<std::string> notes;
 };
 
 /// Every contestant asks the same rays once in each repetition, in turn, so that what else the machine does meets all
-/// alike; one further round before that is not counted. Without a Vulkan device that row is empty, and a note says why.
+/// alike; one further round before that is not counted. Of a compressed array, the uncompressed one takes part as well.
+/// Without a Vulkan device that row is empty, and a note says why.
 ShadowRayBench bench_shadow_rays(const Session& session, int repetitions, Results& results, Progress& progress);
 
 /// Median over the repetitions, in rays a second; nothing where the row could not run.

@@ -299,6 +299,19 @@ TEST(BenchCommand, GivesEveryContestantAndTheRatios) {
     EXPECT_NEAR(blocked["embree_1"].get<double>(), blocked["embree_16"].get<double>(), 0.5);
     EXPECT_NEAR(blocked["embree_8"].get<double>(), blocked["embree_stream"].get<double>(), 0.5);
     EXPECT_EQ(files_in(folder / "b"), (Arguments{"shadow-rays.csv", "shadow-rays.json", "shadow-rays.md"}));
+    EXPECT_TRUE(bench["compression_cost"]["cpu"].is_null());
+}
+
+TEST(BenchCommand, AsksTheUncompressedArrayBesideACompressedOne) {
+    const ProgramRun run =
+        run_program(with({"bench", "shadow-rays", "--repetitions", "1", "--json", "--out", "b", "--set",
+                          "compression=on", "dictionary_rows=1024", "dictionary_choice=frequent"},
+                         small),
+                    fresh_folder());
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    const Json bench = Json::parse(run.output);
+    EXPECT_GT(bench["compression_cost"]["cpu"], 0.0);
+    EXPECT_NE(bench["blocked_percent"]["voxel_rows_cpu"], bench["blocked_percent"]["voxel_rows_cpu_uncompressed"]);
 }
 
 }  // namespace
