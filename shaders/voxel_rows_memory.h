@@ -95,25 +95,39 @@ FN FourWords load_four_words(Rows rows, RowShape shape, UInt row, int word) {
 
 #endif
 
-FN UInt load_index_word(Rows rows, UInt word) {
+/// Two neighbouring words.
+struct TwoWords {
+    uint x;
+    uint y;
+};
+
+/// The word and, where `both`, the one behind it. Texels are asked for only where they are needed: a software device takes
+/// as long for one as for a whole row.
+FN TwoWords load_index_words(Rows rows, uint word, bool both) {
 #ifdef ROWS_AS_TEXELS
     const uvec4 words = texelFetch(row_texels, int(word >> 2));
-    const uvec2 two = (word & 2u) == 0u ? words.xy : words.zw;
-    return (word & 1u) == 0u ? two.x : two.y;
+    const uint place = word & 3u;
+    TwoWords two;
+    two.x = place < 2u ? (place == 0u ? words.x : words.y) : (place == 2u ? words.z : words.w);
+    two.y = place < 2u ? (place == 0u ? words.y : words.z) : words.w;
+    if (place == 3u && both) two.y = texelFetch(row_texels, int(word >> 2) + 1).x;
+    return two;
 #else
-    return rows.v[word];
+    TwoWords two;
+    two.x = rows.v[word];
+    two.y = both ? rows.v[word + 1u] : 0u;
+    return two;
 #endif
 }
 
 /// The row's index in the dictionary. Of 20 bits there are 8 in 5 words.
 FN UInt load_index(Rows rows, RowShape shape, UInt row) {
     const uint start = uint(shape.index_start);
-    if (shape.index_bits == 32) return load_index_word(rows, start + row);
+    if (shape.index_bits == 32) return load_index_words(rows, start + row, false).x;
     const uint bit = (row & 7u) * 20u;
-    const uint word = start + (row >> 3) * 5u + (bit >> 5);
     const uint shift = bit & 31u;
-    return ((load_index_word(rows, word) >> shift) | shift_left(load_index_word(rows, word + 1u), 32u - shift)) &
-           0xfffffu;
+    const TwoWords words = load_index_words(rows, start + (row >> 3) * 5u + (bit >> 5), shift > 12u);
+    return ((words.x >> shift) | shift_left(words.y, 32u - shift)) & 0xfffffu;
 }
 #endif
 

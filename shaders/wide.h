@@ -146,23 +146,48 @@ HWY_INLINE Mask mask_of(std::uint32_t bits) {
 }
 HWY_INLINE bool any_lane(Mask mask) { return !hn::AllFalse(RealTag(), mask.m); }
 
-/// words[index * stride] for each ray.
-HWY_INLINE UInt gather_words(const uint* words, UInt index, int stride) {
-    alignas(64) uint each[lanes], gathered[lanes];
-    hn::Store(index.v, UIntTag(), each);
-    for (std::size_t i = 0; i < lanes; ++i) gathered[i] = words[static_cast<std::size_t>(each[i]) * stride];
-    return {hn::Load(UIntTag(), gathered)};
+/// A vector of what `word_of(lane)` reads for each lane. Put together in registers where they are that wide: a vector that
+/// is loaded from words just stored waits until all of them have left the processor.
+template <class WordOf>
+HWY_INLINE UInt collected(const WordOf& word_of) {
+#if HWY_TARGET <= HWY_AVX3
+    const auto four = [&](std::size_t lane) {
+        __m128i words = _mm_cvtsi32_si128(static_cast<int>(word_of(lane)));
+        words = _mm_insert_epi32(words, static_cast<int>(word_of(lane + 1)), 1);
+        words = _mm_insert_epi32(words, static_cast<int>(word_of(lane + 2)), 2);
+        return _mm_insert_epi32(words, static_cast<int>(word_of(lane + 3)), 3);
+    };
+    __m512i all = _mm512_castsi128_si512(four(0));
+    all = _mm512_inserti32x4(all, four(4), 1);
+    all = _mm512_inserti32x4(all, four(8), 2);
+    return {hn::Vec<UIntTag>{_mm512_inserti32x4(all, four(12), 3)}};
+#else
+    alignas(64) uint words[lanes];
+    for (std::size_t lane = 0; lane < lanes; ++lane) words[lane] = word_of(lane);
+    return {hn::Load(UIntTag(), words)};
+#endif
 }
 
-/// Number `index` of 20-bit numbers that lie one after the other, for each ray. Reads up to 12 bits behind it.
-HWY_INLINE UInt gather_20_bits(const uint* words, UInt index) {
-    alignas(64) uint each[lanes], gathered[lanes];
+/// words[index * stride] for each ray.
+HWY_INLINE UInt gather_words(const uint* words, UInt index, int stride) {
+    alignas(64) uint each[lanes];
     hn::Store(index.v, UIntTag(), each);
+    return collected([&](std::size_t lane) { return words[static_cast<std::size_t>(each[lane]) * stride]; });
+}
+
+/// Number `index`, below 1.7e9, of 20-bit numbers that lie one after the other, for each ray. Reads up to 12 bits behind
+/// it.
+HWY_INLINE UInt gather_20_bits(const uint* words, UInt index) {
+    alignas(64) uint first_byte[lanes];  // index * 5 / 2
+    hn::Store(hn::Add(hn::ShiftLeft<1>(index.v), hn::ShiftRight<1>(index.v)), UIntTag(), first_byte);
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(words);
-    for (std::size_t i = 0; i < lanes; ++i) std::memcpy(&gathered[i], bytes + std::size_t{each[i]} * 5 / 2, 4);
+    const UInt read = collected([&](std::size_t lane) {
+        uint word = 0;
+        std::memcpy(&word, bytes + first_byte[lane], sizeof word);
+        return word;
+    });
     const auto odd = hn::And(index.v, hn::Set(UIntTag(), 1u));
-    const auto shifted = hn::Shr(hn::Load(UIntTag(), gathered), hn::ShiftLeft<2>(odd));
-    return {hn::And(shifted, hn::Set(UIntTag(), 0xfffffu))};
+    return {hn::And(hn::Shr(read.v, hn::ShiftLeft<2>(odd)), hn::Set(UIntTag(), 0xfffffu))};
 }
 
 #if HWY_TARGET <= HWY_AVX3

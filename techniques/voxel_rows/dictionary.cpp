@@ -22,6 +22,7 @@ constexpr std::uint32_t near_enough = 128;   ///< no nearer row is looked for be
 constexpr std::array later_shifts{4, 2, 6};  ///< half of what becomes one voxel at step_to_look_in, and quarters
 constexpr double least_distance = 0.4;       ///< for a later look, of the mean over all distinct rows
 constexpr std::uint32_t most_packed_rows = 1u << 20u;
+constexpr std::size_t most_packed_indices = 1'700'000'000;  // whose bytes the wide kernels count in 32 bits
 constexpr std::size_t rows_between_checks = 1024;
 
 /// What mapping one deal's rows came to. Lights: of all rows together.
@@ -268,7 +269,8 @@ RowArray compress_rows(const RowArray& array, const DictionaryOptions& options, 
 
     RowDictionary& kept = made.dictionary;
     kept.rows = static_cast<std::uint32_t>(dictionary.size());
-    kept.index_bits = options.packed && kept.rows <= most_packed_rows ? 20 : 32;
+    const bool fit = kept.rows <= most_packed_rows && array.grid.rows() <= most_packed_indices;
+    kept.index_bits = options.packed && fit ? 20 : 32;
     kept.steps = options.steps;
     kept.distinct_rows = histogram.distinct;
     kept.rows_mapped.assign(counts.by_step.begin(), counts.by_step.begin() + options.steps);

@@ -23,7 +23,7 @@ struct DictionaryOptions {
     DictionaryChoice choice = DictionaryChoice::covering;
     int steps = 4;  ///< s, 1 to 6
     Leftovers leftovers = Leftovers::nearest;
-    bool packed = true;  ///< indices of 20 bits where the dictionary has no more than 2^20 rows; else 32
+    bool packed = true;  ///< indices of 20 bits where the dictionary has no more than 2^20 rows, the array 1.7e9; else 32
     std::uint64_t seed = 1;
     int threads = 0;
 };
