@@ -32,7 +32,9 @@ MaskPair probed(const EmbreeScene& embree, std::span<const SurfacePoint> points,
                 const MaskPair& parts, const BakeOptions& options, std::uint64_t& cast) {
     const int size = options.mask_size, steps = casting_steps(size);
     MaskPair masks{reduced(parts.visible, size, steps), reduced(parts.occluded, size, steps)};
-    const ProbeLimits limits{options.probes, points.size() * static_cast<std::uint64_t>(options.rays)};
+    // Points that are alone in seeing past something are not passed over: each asks at least once.
+    const std::uint64_t budget = points.size() * static_cast<std::uint64_t>(options.rays);
+    const ProbeLimits limits{std::max(options.probes, static_cast<int>(points.size())), budget};
     cast += probe_rims(embree, points, size, limits, options.seed, cell, masks);
     return masks;
 }

@@ -36,9 +36,8 @@ constexpr std::array<Parameter, 18> parameters{{
     {"rays_per_point", "Rays per point", "", ParameterKind::integer, ParameterAffects::structure, 1, 4096, 128,
      std::nullopt, "Cast from each point sample, over the hemisphere."},
     {"probes", "Rays at rims", "", ParameterKind::integer, ParameterAffects::structure, 0, 4096, 128, 0,
-     "At most, from a cell's points into each texel beside those that its masks have set, in place of dilation. 0: "
-     "masks "
-     "are dilated, as always in scenes that move."},
+     "In place of dilation, into each texel beside those that a cell's masks have set; one from each of its points if "
+     "those are more. 0: masks are dilated, as always in scenes that move."},
     {"dilation", "Dilation", "texels", ParameterKind::real, ParameterAffects::structure, 0, 2, 0.33, 1,
      "By how much both masks grow where no rays are spent at their rims, so that directions between the rays count "
      "too; "
