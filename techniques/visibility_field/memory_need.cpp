@@ -16,6 +16,10 @@ constexpr double most_bricks = 1 << 26;           // cells are numbered in 32 bi
 constexpr double most_along = 1 << 22;            // cells along an axis, whose halves floats still tell apart
 constexpr double most_mask_words = 4294967296.0;  // masks are found by 32 bits
 
+/// While Embree builds its tree. Measured on atrium, street, bear and Crytek Sponza, 155,000 to 2.8 million triangles:
+/// 141 to 146, of which 103 to 110 stay.
+constexpr double tree_bytes_per_triangle = 150.0;
+
 struct Need {
     double bytes = 0.0, bricks = 0.0;
     double longest = 1.0;  ///< cells along an axis
@@ -42,8 +46,9 @@ Need need_of(const SurfaceExtent& surface, const BakeOptions& options) {
     const bool by_cell = options.placement == Placement::stratified;
     const double points = static_cast<double>(options.points) + (by_cell ? occupied : 0.0);
     const double twice = surface.moves ? 2.0 : 1.0;  // what stands still, and the moment
+    const double trees = twice * tree_bytes_per_triangle * static_cast<double>(surface.triangles);
     const double answers = surface.moves ? points * 4.0 * static_cast<double>(words_of_rays(options.rays)) : 0.0;
-    need.bytes = answers + need.bricks * sizeof(FieldBrick) + twice * occupied * (8.0 * words + 8.0) +
+    need.bytes = trees + answers + need.bricks * sizeof(FieldBrick) + twice * occupied * (8.0 * words + 8.0) +
                  twice * points * static_cast<double>(sizeof(SurfacePoint)) * (by_cell ? 1.0 : 2.3) +
                  (by_cell ? 2.0 * parts * static_cast<double>(sizeof(CellPart)) : 0.0);
     return need;

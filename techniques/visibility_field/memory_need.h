@@ -22,7 +22,8 @@ struct SurfaceExtent {
     bool moves = false;  ///< then what stands still is kept, with the answers to its rays
 };
 
-/// What a bake takes at its peak, bytes, at most: bricks, samples, the parts of triangles in cells, and masks.
+/// What a bake takes at its peak, bytes, at most: Embree's trees, bricks, samples, the parts of triangles in cells,
+/// masks.
 double bake_bytes(const SurfaceExtent& surface, const BakeOptions& options);
 
 /// EnvironmentError where a bake takes more than `available_bytes`: says what it would take, and which larger cells

@@ -33,6 +33,19 @@ TEST(MemoryNeed, IsNoLessThanWhatABakeHolds) {
     }
 }
 
+TEST(MemoryNeed, GrowsByTheTreeOfEachTriangleAndOfWhatStandsStill) {
+    BakeOptions options;
+    options.placement = Placement::random;
+    options.cell_m = 100.0f;
+    const auto bytes = [&](std::size_t triangles, bool moves) {
+        return bake_bytes({hall, 5000.0, triangles, moves}, options);
+    };
+    const double one = bytes(2'000'000, false) - bytes(1'000'000, false);
+    EXPECT_GE(one, 146e6);  // what building was measured to take
+    EXPECT_LT(one, 200e6);
+    EXPECT_DOUBLE_EQ(bytes(2'000'000, true) - bytes(1'000'000, true), 2.0 * one);
+}
+
 TEST(MemoryNeed, WhatFitsIsAccepted) { EXPECT_EQ(refusal({}, std::uint64_t{1} << 30), "accepted"); }
 
 TEST(MemoryNeed, TheRefusalNamesTheNeedAndTheCellsThatWouldFit) {
