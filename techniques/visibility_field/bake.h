@@ -21,7 +21,7 @@ struct BakeOptions {
     int mask_size = 18;                ///< texels along a side of each mask, 8 to 64
     std::uint32_t points = 2'000'000;  ///< point samples; a stratified bake may take a few more
     int rays = 128;                    ///< from each point sample, 1 to 4,096
-    int probes = 128;              ///< 0 to 4,096, or the cell's points: rays into a texel beside a mask's; 0: dilation
+    int probes = 128;  ///< 0 to 4,096, or the cell's points if more: rays into a texel beside a mask's; 0: dilation
     float dilation = 1.0f / 3.0f;  ///< without probes: texels, 0 to 2, in steps of 1 / casting_steps; 1 in the paper
     Placement placement = Placement::stratified;
     LabelRule label = LabelRule::smaller;

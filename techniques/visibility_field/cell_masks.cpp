@@ -13,6 +13,7 @@ namespace sightlines::visibility_field {
 namespace {
 
 constexpr std::size_t cells_per_task = 16;
+constexpr std::size_t most_asking = 4096;  ///< points of a cell that ask each texel at its masks' rims at least once
 
 /// From the parts of texels that rays fell into to texels, dilated. Dilating the merged mask is the same as merging
 /// dilated ones.
@@ -32,9 +33,9 @@ MaskPair probed(const EmbreeScene& embree, std::span<const SurfacePoint> points,
                 const MaskPair& parts, const BakeOptions& options, std::uint64_t& cast) {
     const int size = options.mask_size, steps = casting_steps(size);
     MaskPair masks{reduced(parts.visible, size, steps), reduced(parts.occluded, size, steps)};
-    // Points that are alone in seeing past something are not passed over: each asks at least once.
+    // Points that are alone in seeing past something are not passed over.
     const std::uint64_t budget = points.size() * static_cast<std::uint64_t>(options.rays);
-    const ProbeLimits limits{std::max(options.probes, static_cast<int>(points.size())), budget};
+    const ProbeLimits limits{std::max(options.probes, static_cast<int>(std::min(points.size(), most_asking))), budget};
     cast += probe_rims(embree, points, size, limits, options.seed, cell, masks);
     return masks;
 }
@@ -83,6 +84,7 @@ FinishedMasks cast_cells(const EmbreeScene& embree, const CellPoints& points, co
         for (std::size_t cell = begin; cell < std::min(begin + cells_per_task, cells); ++cell) {
             MaskPair parts;
             for (std::uint32_t k = points.first[cell]; k < points.first[cell + 1]; ++k) {
+                progress.check();
                 cast_from(embree, set, points.points[k], casting_size(options), options.seed ^ casting_seed, room,
                           parts.visible, parts.occluded);
                 if (blocked != nullptr) std::copy_n(room.blocked.begin(), words, &(*blocked)[k * words]);
