@@ -12,7 +12,7 @@ using namespace visibility_field;
 namespace {
 
 constexpr std::array<int, 4> sample_counts{16, 32, 64, 128};
-constexpr std::array<std::uint32_t, 4> point_counts{80'000, 400'000, 2'000'000, 10'000'000};
+constexpr std::array<std::uint32_t, 4> point_counts{80'000, 400'000, 4'000'000, 10'000'000};
 constexpr std::array<std::uint32_t, 4> point_counts_when_quick{1'250, 5'000, 20'000, 80'000};
 constexpr std::array<int, 4> cells_cm{50, 100, 200, 400};
 

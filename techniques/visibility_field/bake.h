@@ -19,8 +19,8 @@ enum class LabelRule { texels, smaller };
 struct BakeOptions {
     float cell_m = 0.5f;               ///< side of a grid cell
     int mask_size = 18;                ///< texels along a side of each mask, 8 to 64
-    std::uint32_t points = 2'000'000;  ///< point samples; a stratified bake may take a few more
-    int rays = 128;                    ///< from each point sample, 1 to 4,096
+    std::uint32_t points = 4'000'000;  ///< point samples; a stratified bake may take a few more
+    int rays = 64;                     ///< from each point sample, 1 to 4,096
     int probes = 128;  ///< 0 to 4,096, or the cell's points if more: rays into a texel beside a mask's; 0: dilation
     float dilation = 1.0f / 3.0f;  ///< without probes: texels, 0 to 2, in steps of 1 / casting_steps; 1 in the paper
     Placement placement = Placement::stratified;

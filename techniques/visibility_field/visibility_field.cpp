@@ -31,9 +31,9 @@ constexpr std::array<Parameter, 18> parameters{{
      "Side of a cell of the grid."},
     {"mask_size", "Mask size", "texels", ParameterKind::integer, ParameterAffects::structure, 8, 64, 18, 18,
      "Along each side of a cell's two octahedral masks."},
-    {"points", "Point samples", "", ParameterKind::integer, ParameterAffects::structure, 1000, 10000000, 2000000,
+    {"points", "Point samples", "", ParameterKind::integer, ParameterAffects::structure, 1000, 10000000, 4000000,
      std::nullopt, "Points of the surface from which rays are cast into the masks."},
-    {"rays_per_point", "Rays per point", "", ParameterKind::integer, ParameterAffects::structure, 1, 4096, 128,
+    {"rays_per_point", "Rays per point", "", ParameterKind::integer, ParameterAffects::structure, 1, 4096, 64,
      std::nullopt, "Cast from each point sample, over the hemisphere."},
     {"probes", "Rays at rims", "", ParameterKind::integer, ParameterAffects::structure, 0, 4096, 128, 0,
      "In place of dilation, into each texel beside those that a cell's masks have set; one from each of its points if "
