@@ -23,6 +23,7 @@ constexpr const char* of_all_lights = ", of all lights";  ///< behind the name o
 constexpr std::string_view imperfect_visibility = "visibility error, imperfect shadow maps";
 constexpr std::string_view imperfect_shadow = "shadow error, imperfect shadow maps";
 constexpr std::string_view equal_time_points = "points of imperfect shadow maps, equal time";
+constexpr std::string_view equal_time_texels = "texels a side of imperfect shadow maps, equal time";
 constexpr std::string_view equal_time_visibility = "visibility error, imperfect shadow maps, equal time";
 constexpr std::string_view equal_time_shadow = "shadow error, imperfect shadow maps, equal time";
 constexpr std::string_view render_time = "render time";

@@ -21,7 +21,7 @@ struct PixelGroups {
 
 /// The pixels of `rect` that show a surface, in blocks of 4 x 4 of the pixels taken.
 /// `stride` and `skip_stride`: takes the pixels whose x and y are multiples of `stride` but, unless it is 0, not both
-/// of `skip_stride`: the passes of a refinement.
+/// of `skip_stride`: the passes of a refinement. `rect` starts at multiples of both.
 PixelGroups group_pixels(const SurfaceBuffer& surfaces, PixelRect rect, int stride, int skip_stride);
 
 }  // namespace sightlines

@@ -4,6 +4,8 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string_view>
 
@@ -33,7 +35,8 @@ struct FieldOnDevice {
     std::optional<compute::RayScene> ray_scene{};  ///< where rays are answered by ray queries
     compute::Buffer tables;                        ///< FieldTables
     bool has_field = false;
-    std::optional<FieldPipeline> pipeline;  ///< for samples that all weigh the same
+    mutable std::mutex pipelines_mutex;
+    mutable std::map<std::uint32_t, FieldPipeline> pipelines;  ///< by kind_of_samples
 };
 
 namespace {
@@ -74,7 +77,14 @@ FieldPipeline make_pipeline(const FieldOnDevice& field, std::uint32_t kind) {
     return made;
 }
 
-/// What the shader must know of the request's samples.
+const FieldPipeline& pipeline_for(const FieldOnDevice& field, std::uint32_t kind) {
+    const std::lock_guard lock(field.pipelines_mutex);
+    const auto found = field.pipelines.find(kind);
+    return found != field.pipelines.end() ? found->second
+                                          : field.pipelines.emplace(kind, make_pipeline(field, kind)).first->second;
+}
+
+/// What the shader must know of the request's samples; 0 where all weigh the same.
 std::uint32_t kind_of_samples(const EnvironmentRequest& request) {
     if (!is_weighted(request)) return 0;
     std::uint32_t kind = samples_weighted;
@@ -106,13 +116,14 @@ std::uint32_t culling_number(const FieldOnDevice& field, Culling culling) {
 struct TileAsker {
     const FieldOnDevice& field;
     const EnvironmentRequest& request;
-    HarmonicLight light;
+    const FieldPipeline& pipeline;
+    bool weighted = false;  ///< samples have weights of their own
+    HarmonicLight light{};
     compute::Buffer directions{};                               ///< of all pixels
     compute::Buffer surfaces{}, sampled{}, sums{}, verdicts{};  ///< of one tile; mapped
-    std::vector<compute::Buffer> light_tables{};                ///< of samples that have weights of their own
+    std::vector<compute::Buffer> light_tables{};                ///< where weighted
     FieldLightingJob job{};
-    std::optional<FieldPipeline> own_pipeline{};  ///< for them
-    double pairs_per_second = 2.0e6;              ///< of the last dispatch; at first a guess low enough for any device
+    double pairs_per_second = 2.0e6;  ///< of the last dispatch; at first a guess low enough for any device
 
     std::span<FieldSums> tile_sums() const {
         return {reinterpret_cast<FieldSums*>(sums.mapped.data()), sums.bytes / sizeof(FieldSums)};
@@ -155,15 +166,15 @@ TileAsker make_asker(const FieldOnDevice& field, const EnvironmentRequest& reque
                      const Progress& progress) {
     const SamplePattern& pattern = *request.pattern;
     const auto samples = static_cast<std::uint32_t>(pattern.samples);
-    const bool weighted = is_weighted(request);
+    const std::uint32_t kind = kind_of_samples(request);
+    const bool weighted = kind != 0;
     const std::uint32_t words = request.keep_verdicts ? (samples + 31) / 32 : 0;
     const std::size_t padded = (most_pixels + workgroup - 1) / workgroup * workgroup;
-    TileAsker asker{field, request, harmonic_light(request.light)};
+    TileAsker asker{field, request, pipeline_for(field, kind), weighted, harmonic_light(request.light)};
     std::vector<vec3> directions;
     for (std::size_t k = 0; k < samples; ++k) directions.emplace_back(pattern.x[k], pattern.y[k], pattern.z[k]);
     asker.directions = on_device(field.device, directions, progress);
     asker.sampled = host_buffer(field, weighted ? padded * sizeof(SampledSurface) : 0);
-    if (weighted) asker.own_pipeline = make_pipeline(field, kind_of_samples(request));
     if (weighted) give_light(asker, progress);
     asker.surfaces = host_buffer(field, padded * sizeof(AskingPoint));
     asker.sums = host_buffer(field, padded * sizeof(FieldSums));
@@ -215,8 +226,8 @@ void place_sampled(const TileAsker& asker, const PixelGroups& pixels) {
 void ask_tile(TileAsker& asker, const PixelGroups& pixels, const Progress& progress) {
     const std::uint32_t count = place_surfaces(asker, pixels);
     std::ranges::fill(asker.tile_verdicts(), 0u);
-    if (asker.own_pipeline) place_sampled(asker, pixels);
-    const FieldPipeline& pipeline = asker.own_pipeline ? *asker.own_pipeline : *asker.field.pipeline;
+    if (asker.weighted) place_sampled(asker, pixels);
+    const FieldPipeline& pipeline = asker.pipeline;
     asker.job.first_sample = 0;
     while (asker.job.first_sample < asker.job.samples) {
         progress.check();
@@ -252,8 +263,8 @@ void resolve(const TileAsker& asker, const PixelGroups& pixels, EnvironmentResul
         result.rays_traced.pixels[pixel] = sums.traced;
         PixelMoments moments;
         std::ranges::copy(sums.moment, moments.begin());
-        vec3 irradiance = asker.own_pipeline ? vec3(moments[0], moments[1], moments[2])
-                                             : irradiance_of(asker.light, moments, asker.request.pattern->samples);
+        vec3 irradiance = asker.weighted ? vec3(moments[0], moments[1], moments[2])
+                                         : irradiance_of(asker.light, moments, asker.request.pattern->samples);
         if (sums.subtracts != 0)
             irradiance += sightlines::irradiance(asker.request.light, surfaces.shading_normal[pixel]);
         result.irradiance.pixels[pixel] = irradiance;
@@ -346,7 +357,7 @@ std::shared_ptr<const FieldOnDevice> give_to_vulkan(const VisibilityField* field
                              nodes,
                              lift_m(embree)};
     made->tables = on_device(made->device, std::vector<FieldTables>{tables}, progress);
-    made->pipeline = make_pipeline(*made, 0);
+    pipeline_for(*made, 0);
     return made;
 }
 
