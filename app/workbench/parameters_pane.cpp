@@ -14,6 +14,8 @@
 namespace sightlines {
 namespace {
 
+constexpr float number_width = 76.0f;  ///< of the box beside a slider: eight digits
+
 /// A heading over a group of controls.
 void heading(const Frame& frame, const std::string& text) {
     if (ImGui::GetCursorPosY() > 16.0f * frame.scale) ImGui::Dummy({0.0f, 8.0f * frame.scale});
@@ -66,7 +68,7 @@ std::string help_of(const Parameter& parameter) {
 
 /// Slider and number field, side by side.
 double draw_number(Frame& frame, const Parameter& parameter, double value) {
-    const float gap = 8.0f * frame.scale, field = 64.0f * frame.scale;
+    const float gap = 8.0f * frame.scale, field = number_width * frame.scale;
     const float width = ImGui::GetContentRegionAvail().x;
     auto shown = static_cast<float>(value);
     const auto low = static_cast<float>(parameter.lowest), high = static_cast<float>(parameter.highest);
@@ -140,7 +142,7 @@ void draw_technique(Frame& frame) {
 void draw_light_count(Frame& frame, LightChoice& lights) {
     label_line(frame, "Number", lights.count == 0 ? "0: the scene's own" : "",
                "Point lights, spread at random; 0 takes those that the scene brings.", false);
-    const float gap = 8.0f * frame.scale, field = 64.0f * frame.scale;
+    const float gap = 8.0f * frame.scale, field = number_width * frame.scale;
     int count = static_cast<int>(lights.count);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - field - gap);
     // The slider goes by powers of two; any number can be typed.

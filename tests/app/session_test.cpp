@@ -371,7 +371,7 @@ TEST(ShippedSessions, LoadAndDifferInTheirTechniqueAlone) {
         session.parameters.clear();
         EXPECT_EQ(first_of_scene.emplace(session.scene, session).first->second, session) << entry.path();
     }
-    EXPECT_EQ(techniques_shown.size(), 14u);
+    EXPECT_EQ(techniques_shown.size(), 18u);
 }
 
 }  // namespace
