@@ -46,10 +46,9 @@ MeanErrors errors_of_maps(const std::string& scene, const ImperfectMaps& maps, B
 }
 
 /// The most points with which maps of this size take no longer for a picture than voxel rows; nothing where all do.
-std::optional<int> points_in_equal_time(const std::string& scene, int texels, BenchRun& run, Results& results,
-                                        Progress& progress) {
+std::optional<int> points_in_equal_time(const Prepared& rows, const std::string& scene, int texels, BenchRun& run,
+                                        Results& results, Progress& progress) {
     std::string device;
-    const Prepared rows = prepare(session_of(run, scene, rows_for(scene)), results, progress);
     const auto fits = [&](int points) {
         const Prepared maps = prepare(session_of(run, scene, variant_of({points, texels})), results, progress);
         const std::vector<double> medians =
@@ -66,10 +65,11 @@ std::optional<int> points_in_equal_time(const std::string& scene, int texels, Be
 /// Of the maps that take no longer than voxel rows those that err least; the cheapest where all take longer.
 void add_equal_time(MeasuredTable& table, const std::string& scene, BenchRun& run, Results& results,
                     Progress& progress) {
+    const Prepared rows = prepare(session_of(run, scene, rows_for(scene)), results, progress);
     std::optional<std::pair<ImperfectMaps, MeanErrors>> best;
     for (const int texels : std::span(map_sizes).first(run.quick ? 1 : map_sizes.size())) {
         say(run, table, scene + ", imperfect maps of " + std::to_string(texels) + " texels in equal time");
-        const std::optional<int> points = points_in_equal_time(scene, texels, run, results, progress);
+        const std::optional<int> points = points_in_equal_time(rows, scene, texels, run, results, progress);
         if (!points) continue;
         const ImperfectMaps maps{*points, texels};
         const MeanErrors errors = errors_of_maps(scene, maps, run, results, progress);

@@ -117,11 +117,10 @@ struct TileAsker {
     const FieldOnDevice& field;
     const EnvironmentRequest& request;
     const FieldPipeline& pipeline;
-    bool weighted = false;  ///< samples have weights of their own
     HarmonicLight light{};
     compute::Buffer directions{};                               ///< of all pixels
     compute::Buffer surfaces{}, sampled{}, sums{}, verdicts{};  ///< of one tile; mapped
-    std::vector<compute::Buffer> light_tables{};                ///< where weighted
+    std::vector<compute::Buffer> light_tables{};                ///< of samples that have weights of their own
     FieldLightingJob job{};
     double pairs_per_second = 2.0e6;  ///< of the last dispatch; at first a guess low enough for any device
 
@@ -166,11 +165,10 @@ TileAsker make_asker(const FieldOnDevice& field, const EnvironmentRequest& reque
                      const Progress& progress) {
     const SamplePattern& pattern = *request.pattern;
     const auto samples = static_cast<std::uint32_t>(pattern.samples);
-    const std::uint32_t kind = kind_of_samples(request);
-    const bool weighted = kind != 0;
+    const bool weighted = is_weighted(request);
     const std::uint32_t words = request.keep_verdicts ? (samples + 31) / 32 : 0;
     const std::size_t padded = (most_pixels + workgroup - 1) / workgroup * workgroup;
-    TileAsker asker{field, request, pipeline_for(field, kind), weighted, harmonic_light(request.light)};
+    TileAsker asker{field, request, pipeline_for(field, kind_of_samples(request)), harmonic_light(request.light)};
     std::vector<vec3> directions;
     for (std::size_t k = 0; k < samples; ++k) directions.emplace_back(pattern.x[k], pattern.y[k], pattern.z[k]);
     asker.directions = on_device(field.device, directions, progress);
@@ -226,7 +224,7 @@ void place_sampled(const TileAsker& asker, const PixelGroups& pixels) {
 void ask_tile(TileAsker& asker, const PixelGroups& pixels, const Progress& progress) {
     const std::uint32_t count = place_surfaces(asker, pixels);
     std::ranges::fill(asker.tile_verdicts(), 0u);
-    if (asker.weighted) place_sampled(asker, pixels);
+    if (is_weighted(asker.request)) place_sampled(asker, pixels);
     const FieldPipeline& pipeline = asker.pipeline;
     asker.job.first_sample = 0;
     while (asker.job.first_sample < asker.job.samples) {
@@ -263,8 +261,9 @@ void resolve(const TileAsker& asker, const PixelGroups& pixels, EnvironmentResul
         result.rays_traced.pixels[pixel] = sums.traced;
         PixelMoments moments;
         std::ranges::copy(sums.moment, moments.begin());
-        vec3 irradiance = asker.weighted ? vec3(moments[0], moments[1], moments[2])
-                                         : irradiance_of(asker.light, moments, asker.request.pattern->samples);
+        vec3 irradiance = is_weighted(asker.request)
+                              ? vec3(moments[0], moments[1], moments[2])
+                              : irradiance_of(asker.light, moments, asker.request.pattern->samples);
         if (sums.subtracts != 0)
             irradiance += sightlines::irradiance(asker.request.light, surfaces.shading_normal[pixel]);
         result.irradiance.pixels[pixel] = irradiance;
