@@ -24,6 +24,7 @@ constexpr double least_distance = 0.4;       ///< for a later look, of the mean 
 constexpr std::uint32_t most_packed_rows = 1u << 20u;
 constexpr std::size_t most_packed_indices = 1'700'000'000;  // whose bytes the wide kernels count in 32 bits
 constexpr std::size_t rows_between_checks = 1024;
+constexpr std::size_t rows_ahead = 16;  ///< whose indices' places, anywhere in memory, are asked for early
 
 /// What mapping one deal's rows came to. Lights: of all rows together.
 struct MappedCounts {
@@ -46,7 +47,7 @@ struct Mapping {
     const DictionaryOptions& options;
     int resolution;
     const SortedRows<length>& sorted;
-    std::vector<std::uint32_t> place_of_index;  ///< where each row of the dictionary is among the sorted ones
+    std::vector<std::uint32_t> place_of_index;  ///< where each row of the dictionary is among those not shifted
     std::span<std::uint32_t> index_of_id;       ///< of the dictionary
 };
 
@@ -86,20 +87,37 @@ Match nearest_round(const SortedRows<length>& sorted, const Asked<length>& asked
     return nearest_in(sorted, window(all, asked.place, most), asked.row, asked.probes, best);
 }
 
+/// `some` and what else of `all` shares their blocks: it costs nothing more to compare.
+Range whole_blocks(Range some, Range all) {
+    const std::uint32_t end = (some.end() + rows_at_once - 1) / rows_at_once * rows_at_once;
+    const std::uint32_t first = std::max(some.first / rows_at_once * rows_at_once, all.first);
+    return {first, std::min(end, all.end()) - first};
+}
+
 /// The dictionary's row for one that matches some: the paper's, or one that is no further away.
 template <int length>
 Match choose(const Mapping<length>& mapping, const Matching& matching, const Asked<length>& asked) {
     const bool left_over = matching.step >= mapping.options.steps;
-    const Match papers = compared(mapping, asked, left_over ? random_place(mapping, asked.row) : matching.group.best);
-    if (mapping.options.leftovers == Leftovers::random) return papers;
+    const Group& alike = group_of(mapping.sorted, matching, matching.step);
+    const std::uint32_t papers = left_over ? random_place(mapping, asked.row) : alike.best;
+    if (mapping.options.leftovers == Leftovers::random) return compared(mapping, asked, papers);
+    if (left_over)
+        return nearest_round(mapping.sorted, asked, alike.range, most_for_left_over, compared(mapping, asked, papers));
+
     // The likelier ones first: the others are given up the sooner.
-    const Match near = matching.step < step_to_look_in
-                           ? nearest_round(mapping.sorted, asked, matching.group.range, fewest_looked_at, papers)
-                           : papers;
-    if (left_over) return nearest_round(mapping.sorted, asked, matching.group.range, most_for_left_over, near);
-    if (std::uint64_t{near.distance.lights} * near_enough < asked.probes.lights()) return near;
-    const auto wider = find_matching(mapping.sorted, asked.row, asked.place, step_to_look_in);
-    return nearest_round(mapping.sorted, asked, wider->group.range, most_looked_at, near);
+    const Range wider = group_of(mapping.sorted, matching, step_to_look_in).range;
+    const Range near = whole_blocks(window(alike.range, asked.place, fewest_looked_at), wider);
+    const bool is_near = papers >= near.first && papers < near.end();
+    Match match = is_near ? Match{papers, farthest} : compared(mapping, asked, papers);
+    const auto look_from = [&](std::uint32_t first, std::uint32_t end) {
+        if (first < end) match = nearest_in(mapping.sorted, {first, end - first}, asked.row, asked.probes, match);
+    };
+    look_from(near.first, near.end());
+    if (std::uint64_t{match.distance.lights} * near_enough < asked.probes.lights()) return match;
+    const Range far = window(wider, asked.place, most_looked_at);
+    look_from(far.first, std::min(near.first, far.end()));
+    look_from(std::max(near.end(), far.first), far.end());
+    return match;
 }
 
 /// Lines 7 to 15 for one row that is not in the dictionary.
@@ -128,15 +146,22 @@ Range range_of_deal(const SortedRows<length>& sorted, const RowDeals<length>& ro
     return {first, (deal == rows.cuts.size() ? all : place(rows.cuts[deal])) - first};
 }
 
+/// Makes ready for writing the index of a row to come.
+template <int length>
+void prefetch_index(const Mapping<length>& mapping, const RowDeals<length>& rows, std::size_t place) {
+    if (place < rows.rows()) __builtin_prefetch(&mapping.index_of_id[rows.id(place)], 1);
+}
+
 template <int length>
 MappedCounts map_deal(const Mapping<length>& mapping, const RowDeals<length>& rows, std::size_t deal,
                       const Progress& progress) {
     MappedCounts counts;
-    const Range alike = range_of_deal(mapping.sorted, rows, deal);
+    const Range own = range_of_deal(mapping.sorted, rows, deal);
     for (std::size_t k = rows.first[deal]; k < rows.first[deal + 1]; ++k) {
         if ((k - rows.first[deal]) % rows_between_checks == 0) progress.check();
+        prefetch_index(mapping, rows, k + rows_ahead);
         const DealtRow<length> dealt = rows[k];
-        const std::uint32_t place = place_among(mapping.sorted, alike, dealt.row);
+        const std::uint32_t place = place_among(mapping.sorted, own, dealt.row);
         const Asked<length> asked{dealt.row, place, RowProbes<length>(dealt.row, mapping.resolution)};
         Match match{place, {}};
         std::uint64_t* counter = &counts.by_step[0];
@@ -156,16 +181,18 @@ template <int length>
 MappedCounts look_again(const Mapping<length>& mapping, RowDeals<length>& rows, std::size_t deal,
                         const Progress& progress) {
     MappedCounts counts;
-    const Range alike = range_of_deal(mapping.sorted, rows, deal);
+    const Range own = range_of_deal(mapping.sorted, rows, deal);
     for (std::size_t k = rows.first[deal]; k < rows.first[deal + 1]; ++k) {
         if ((k - rows.first[deal]) % rows_between_checks == 0) progress.check();
+        prefetch_index(mapping, rows, k + rows_ahead);
         const DealtRow<length> dealt = rows[k];
-        const std::uint32_t place = place_among(mapping.sorted, alike, dealt.row);
+        const std::uint32_t place = place_among(mapping.sorted, own, dealt.row);
         const auto matching = find_matching(mapping.sorted, dealt.row, place, step_to_look_in);
         if (!matching) continue;
         const Asked<length> asked{dealt.row, place, RowProbes<length>(dealt.row, mapping.resolution)};
         const Match known{place, {dealt.distance, 0}};
-        const Match match = nearest_round(mapping.sorted, asked, matching->group.range, most_looked_at, known);
+        const Range alike = group_of(mapping.sorted, *matching, step_to_look_in).range;
+        const Match match = nearest_round(mapping.sorted, asked, alike, most_looked_at, known);
         if (match.distance == known.distance) continue;
         counts.differing_lights -= std::int64_t{dealt.distance - match.distance.lights} * dealt.count;
         rows.distance(k) = match.distance.lights;
@@ -192,7 +219,7 @@ template <int length>
 MappedCounts map_rows(RowDeals<length> rows, const std::vector<RowBits<length>>& dictionary, int resolution,
                       const DictionaryOptions& options, std::span<std::uint32_t> index_of_id, Progress& progress) {
     progress.begin("mapping rows to the dictionary", static_cast<std::int64_t>(rows.deals()));
-    const SortedRows<length> sorted = sort_rows(dictionary, resolution, 0, options.threads, progress);
+    SortedRows<length> sorted = sort_rows(dictionary, resolution, 0, options.threads, progress);
     Mapping<length> mapping{options, resolution, sorted, std::vector<std::uint32_t>(dictionary.size()), index_of_id};
     for (std::uint32_t place = 0; place < sorted.index.size(); ++place)
         mapping.place_of_index[sorted.index[place]] = place;
@@ -203,15 +230,12 @@ MappedCounts map_rows(RowDeals<length> rows, const std::vector<RowBits<length>>&
     const double mean =
         static_cast<double>(total.differing_lights) / static_cast<double>(std::max<std::size_t>(1, rows.rows()));
     const auto least = static_cast<std::uint32_t>(least_distance * mean) + 1;
-    HugeBuffer spare;
     for (const int shift : later_shifts) {
-        auto dealt = deal_again(rows, shift, least, options.threads, progress, spare);
-        spare = std::exchange(rows, std::move(dealt)).words;
+        rows = deal_again(std::move(rows), shift, least, options.threads, progress);
         progress.begin("looking for nearer rows", static_cast<std::int64_t>(rows.deals()));
-        const SortedRows<length> moved = sort_rows(dictionary, resolution, shift, options.threads, progress);
-        const Mapping<length> again{options, resolution, moved, {}, index_of_id};
+        sorted = sort_rows(dictionary, resolution, shift, options.threads, progress, std::move(sorted));
         total += map_deals(rows.deals(), options.threads, progress,
-                           [&](std::size_t deal) { return look_again(again, rows, deal, progress); });
+                           [&](std::size_t deal) { return look_again(mapping, rows, deal, progress); });
     }
     return total;
 }

@@ -22,7 +22,7 @@ template <int length>
 constexpr std::size_t way_words = 2 * static_cast<std::size_t>(length) * lanes;
 
 constexpr std::size_t rows_between_checks = 1u << 14u;
-constexpr std::size_t probes_between_checks = 4;
+constexpr std::size_t pairs_between_checks = 4;
 
 /// Which of two rows comes first where their prefix and fine key are the same: down-sampled by 2, and then the bits
 /// themselves.
@@ -110,7 +110,8 @@ void fill_lane(const RowBits<length>& row, std::uint32_t end, std::uint32_t* lan
 
 template <int length>
 void fill_blocks(SortedRows<length>& sorted, int resolution, const Progress& progress) {
-    sorted.blocks = allocate_huge((sorted.rows.size() + lanes - 1) / lanes * 2 * way_words<length>);
+    const std::size_t blocks = (sorted.rows.size() + lanes - 1) / lanes;
+    sorted.blocks = reuse_huge(sorted.blocks, blocks * 2 * way_words<length>);
     for (std::size_t place = 0; place < sorted.rows.size(); ++place) {
         if (place % rows_between_checks == 0) progress.check();
         std::uint32_t* lane = &sorted.blocks.words[place / lanes * 2 * way_words<length> + place % lanes];
@@ -125,16 +126,6 @@ HWY_INLINE Vector clear_below(Vector bits) {
     return hn::PopulationCount(hn::AndNot(bits, hn::Sub(bits, hn::Set(tag, 1))));
 }
 
-/// The first set bit from `start` on of each lane's row, one way; the end where there is none.
-template <int length>
-HWY_INLINE Vector next_set(const std::uint32_t* way, std::uint32_t start) {
-    const Tag tag;
-    const std::uint32_t word = start / 32;
-    const Vector bits = hn::And(hn::LoadU(tag, way + word * lanes), hn::Set(tag, ~0u << (start % 32)));
-    const Vector place = hn::Add(clear_below(bits), hn::Set(tag, 32 * word));
-    return hn::IfThenElse(hn::Eq(bits, hn::Zero(tag)), hn::LoadU(tag, way + (length + word) * lanes), place);
-}
-
 /// light_weight of each lane.
 template <int length>
 HWY_INLINE Vector light_weights(Vector free_voxels) {
@@ -142,16 +133,32 @@ HWY_INLINE Vector light_weights(Vector free_voxels) {
     return hn::ShiftRight<light_weight_shift<length>>(cube);
 }
 
-/// Adds how many of the lights one way each lane's row answers differently. Ends early where all lanes exceed `most`.
+/// How many of the lights each lane's row answers differently. Ends early where all lanes exceed `most`.
 template <int length>
-HWY_INLINE Vector add_differing(Vector sum, const Probes<length>& probes, const std::uint32_t* way, Vector most) {
+HWY_INLINE Vector differing_lights_of(const RowProbes<length>& probes, const std::uint32_t* block, Vector most) {
     const Tag tag;
+    const hn::RebindToSigned<Tag> signed_tag;
+    const auto difference = [&](Vector a, std::uint32_t b) {  // of numbers below 2^31
+        return hn::BitCast(tag, hn::Abs(hn::BitCast(signed_tag, hn::Sub(a, hn::Set(tag, b)))));
+    };
+    Vector sum = hn::Zero(tag);
     for (std::size_t k = 0; k < probes.count; ++k) {
-        if (k % probes_between_checks == 0 && hn::AllTrue(tag, hn::Gt(sum, most))) break;
-        const Probe& probe = probes.probes[k];
-        const Vector free_voxels = hn::Sub(next_set<length>(way, probe.start), hn::Set(tag, probe.start));
-        const Vector ours = light_weights<length>(free_voxels), right = hn::Set(tag, probe.lights);
-        sum = hn::Add(sum, hn::Sub(hn::Max(ours, right), hn::Min(ours, right)));
+        if (k % pairs_between_checks == 0 && hn::AllTrue(tag, hn::Gt(sum, most))) break;
+        const ProbePair& pair = probes.pairs[k];
+        const std::uint32_t word = pair.start / 32, bit = pair.start % 32;
+        const std::uint32_t* way = block + pair.way * way_words<length>;
+        // The first set bit behind the first start: in the same word or, where that has none, the one behind the word.
+        const Vector bits = hn::LoadU(tag, way + word * lanes);
+        const Vector behind = hn::And(bits, hn::Set(tag, ~1u << bit));
+        const Vector place = hn::Add(clear_below(behind), hn::Set(tag, 32 * word));
+        const Vector next =
+            hn::IfThenElse(hn::Eq(behind, hn::Zero(tag)), hn::LoadU(tag, way + (length + word) * lanes), place);
+        const Vector from_second = hn::Sub(next, hn::Set(tag, pair.start + 1));
+        const auto first_is_clear = hn::Eq(hn::And(bits, hn::Set(tag, 1u << bit)), hn::Zero(tag));
+        const Vector from_first = hn::IfThenElseZero(first_is_clear, hn::Add(from_second, hn::Set(tag, 1)));
+        sum = hn::Add(sum, difference(light_weights<length>(from_first), pair.first_lights));
+        const Vector of_second = difference(light_weights<length>(from_second), pair.second_lights);
+        sum = hn::Add(sum, hn::And(of_second, hn::Set(tag, pair.second)));
     }
     return sum;
 }
@@ -160,8 +167,8 @@ HWY_INLINE Vector add_differing(Vector sum, const Probes<length>& probes, const 
 
 template <int length>
 SortedRows<length> sort_rows(const std::vector<RowBits<length>>& rows, int resolution, int shift, int threads,
-                             Progress& progress) {
-    SortedRows<length> sorted;
+                             Progress& progress, SortedRows<length> spare) {
+    SortedRows<length> sorted = std::move(spare);
     sorted.shift = shift;
     put_in_order(rows, sorted, threads, progress);
     sorted.groups.resize(rows.size());
@@ -199,32 +206,13 @@ std::uint32_t place_among(const SortedRows<length>& sorted, Range within, const 
 }
 
 template <int length>
-std::optional<Matching> find_matching(const SortedRows<length>& sorted, const RowBits<length>& row, std::uint32_t place,
-                                      int least_step) {
-    int step = coarsest_step + 1;
-    std::uint32_t match = 0;
-    for (const std::uint32_t neighbour : {place - 1, place}) {
-        if (neighbour >= sorted.rows.size()) continue;
-        const int common = first_common_step(shifted(sorted.rows[neighbour], sorted.shift), shifted(row, sorted.shift),
-                                             least_step, step);
-        if (common >= step) continue;
-        step = common;
-        match = neighbour;
-    }
-    if (step > coarsest_step) return {};
-    return Matching{step, sorted.groups[match][static_cast<std::size_t>(step - 1)]};
-}
-
-template <int length>
 Match nearest_in(const SortedRows<length>& sorted, Range range, const RowBits<length>& row,
                  const RowProbes<length>& probes, Match best) {
     const Tag tag;
-    for (std::size_t first = range.first / lanes * lanes; first < range.first + range.count; first += lanes) {
+    for (std::size_t first = range.first / lanes * lanes; first < range.end(); first += lanes) {
         const std::uint32_t* up = &sorted.blocks.words[first / lanes * 2 * way_words<length>];
         const Vector most = hn::Set(tag, best.distance.lights);
-        Vector lights = add_differing(hn::Zero(tag), probes.up, up, most);
-        if (hn::AllTrue(tag, hn::Gt(lights, most))) continue;
-        lights = add_differing(lights, probes.down, up + way_words<length>, most);
+        const Vector lights = differing_lights_of(probes, up, most);
         if (hn::AllTrue(tag, hn::Gt(lights, most))) continue;
         Vector voxels = hn::Zero(tag);
         for (std::size_t k = 0; k < length; ++k)
@@ -234,7 +222,7 @@ Match nearest_in(const SortedRows<length>& sorted, Range range, const RowBits<le
         hn::Store(lights, tag, lane_lights.data());
         hn::Store(voxels, tag, lane_voxels.data());
         const std::size_t begin = std::max<std::size_t>(range.first, first);
-        const std::size_t end = std::min<std::size_t>(range.first + range.count, first + lanes);
+        const std::size_t end = std::min<std::size_t>(range.end(), first + lanes);
         for (std::size_t k = begin; k < end; ++k)
             if (const Distance distance{lane_lights[k - first], lane_voxels[k - first]}; distance < best.distance)
                 best = {static_cast<std::uint32_t>(k), distance};
@@ -242,12 +230,11 @@ Match nearest_in(const SortedRows<length>& sorted, Range range, const RowBits<le
     return best;
 }
 
-#define SIGHTLINES_FOR_ROW_LENGTH(length)                                                                            \
-    template SortedRows<length> sort_rows(const std::vector<RowBits<length>>&, int, int, int, Progress&);            \
-    template std::uint32_t place_among(const SortedRows<length>&, Range, const RowBits<length>&);                    \
-    template std::optional<Matching> find_matching(const SortedRows<length>&, const RowBits<length>&, std::uint32_t, \
-                                                   int);                                                             \
-    template Match nearest_in(const SortedRows<length>&, Range, const RowBits<length>&, const RowProbes<length>&,    \
+#define SIGHTLINES_FOR_ROW_LENGTH(length)                                                                         \
+    template SortedRows<length> sort_rows(const std::vector<RowBits<length>>&, int, int, int, Progress&,          \
+                                          SortedRows<length>);                                                    \
+    template std::uint32_t place_among(const SortedRows<length>&, Range, const RowBits<length>&);                 \
+    template Match nearest_in(const SortedRows<length>&, Range, const RowBits<length>&, const RowProbes<length>&, \
                               Match);
 SIGHTLINES_FOR_ROW_LENGTH(1)
 SIGHTLINES_FOR_ROW_LENGTH(2)

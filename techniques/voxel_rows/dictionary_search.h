@@ -1,6 +1,7 @@
 // Wang 2017, Algorithm 2, lines 4 to 11: the dictionary, down-sampled, and the search for a row in it.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,8 @@ constexpr Distance farthest{~0u, ~0u};
 /// Some rows of the dictionary that lie together in SortedRows.
 struct Range {
     std::uint32_t first = 0, count = 0;
+
+    std::uint32_t end() const { return first + count; }
 };
 
 /// A row of the dictionary for another one.
@@ -53,26 +56,45 @@ struct SortedRows {
     HugeBuffer blocks;
 };
 
-/// `rows`: of the dictionary, the most frequent first, of so many voxels each.
+/// `rows`: of the dictionary, the most frequent first, of so many voxels each. `spare`: whose memory nobody needs.
 template <int length>
 SortedRows<length> sort_rows(const std::vector<RowBits<length>>& rows, int resolution, int shift, int threads,
-                             Progress& progress);
+                             Progress& progress, SortedRows<length> spare = {});
 
 /// Where `row` is among the sorted ones, or would be: in `within`, or at its end.
 template <int length>
 std::uint32_t place_among(const SortedRows<length>& sorted, Range within, const RowBits<length>& row);
 
-/// Rows of the dictionary that match another one after some step.
+/// A row of the dictionary that matches another one after some step.
 struct Matching {
     int step;
-    Group group;
+    std::uint32_t place;
 };
 
-/// The first step from `least_step` on after which rows of the dictionary match `row`, whose place is given; nothing
-/// where no step makes any match.
+/// The first step from `least_step` on after which rows of the dictionary match `row`, whose place is given, and one of
+/// them; nothing where no step makes any match. Inlined, since its result would be returned through memory in halves
+/// and read as a whole, which waits for both.
 template <int length>
-std::optional<Matching> find_matching(const SortedRows<length>& sorted, const RowBits<length>& row, std::uint32_t place,
-                                      int least_step);
+[[gnu::always_inline]] inline std::optional<Matching> find_matching(const SortedRows<length>& sorted,
+                                                                    const RowBits<length>& row, std::uint32_t place,
+                                                                    int least_step) {
+    const RowBits<length> moved = shifted(row, sorted.shift);
+    Matching matching{coarsest_step + 1, 0};
+    for (const std::uint32_t neighbour : {place - 1, place}) {
+        if (neighbour >= sorted.rows.size()) continue;
+        const RowBits<length> other = shifted(sorted.rows[neighbour], sorted.shift);
+        const int common = first_common_step(other, moved, least_step, matching.step);
+        if (common < matching.step) matching = {common, neighbour};
+    }
+    if (matching.step > coarsest_step) return {};
+    return matching;
+}
+
+/// All rows that match it after so many steps, or after its own step where that is more.
+template <int length>
+const Group& group_of(const SortedRows<length>& sorted, const Matching& matching, int step) {
+    return sorted.groups[matching.place][static_cast<std::size_t>(std::max(step, matching.step) - 1)];
+}
 
 /// The nearest to a row (whose probes are given) among some rows of the dictionary, the first of equals; `best` where
 /// none is nearer.

@@ -83,6 +83,21 @@ template <int length>
     return row;
 }
 
+/// The row moved up by `shift` voxels, 0 to 31; what leaves it is lost. Rows are down-sampled in two ways, as they are
+/// and moved by half of what becomes one voxel, so that a surface at the edge of a coarse voxel in one is in the middle
+/// of another in the other.
+template <int length>
+RowBits<length> shifted(const RowBits<length>& row, int shift) {
+    if (shift == 0) return row;
+    // All of this is by 64 bits: what was just stored by 32 could not be loaded at once as more.
+    RowPlanes<length> planes = planes_of(row);
+    for (std::size_t k = planes.size(); k-- > 0;)
+        planes[k] = planes[k] << shift | (k > 0 ? planes[k - 1] >> (64 - shift) : 0);
+    RowBits<length> moved;
+    std::memcpy(moved.words.data(), planes.data(), sizeof moved);
+    return moved;
+}
+
 /// The first step from `least` on, at most 5, after which the two rows are alike; `end` where none before that is.
 template <int length>
 int first_common_step(RowBits<length> a, RowBits<length> b, int least, int end) {

@@ -82,6 +82,7 @@ RowDeals<length> deal_out(const Sources<Visit>& sources, int shift, int threads,
     }
     dealt.first.push_back(place);
     dealt.words = reuse_huge(spare, std::size_t{place} * dealt.stride);
+    dealt.memory = dealt.words.owner == spare.owner ? spare.words : dealt.words.words;
     std::vector<std::size_t> visited(sources.count);
     visit_all([&](std::size_t source, const DealtRow<length>& row) {
         const std::size_t deal = deal_of_row[source][visited[source]++];
@@ -92,6 +93,28 @@ RowDeals<length> deal_out(const Sources<Visit>& sources, int shift, int threads,
         *to = row.distance;
     });
     return dealt;
+}
+
+/// Keeps the rows whose distance is at least so much, in their order, at the beginning of their memory.
+template <int length>
+void gather(RowDeals<length>& rows, std::uint32_t least_distance, int threads, const Progress& progress) {
+    const auto words_at = [&](std::size_t place) { return rows.words.words.data() + place * rows.stride; };
+    std::vector<std::size_t> kept(rows.deals());
+    parallel_for(static_cast<std::int64_t>(rows.deals()), threads, [&](std::int64_t index) {
+        progress.check();
+        const auto deal = static_cast<std::size_t>(index);
+        std::size_t to = rows.first[deal];
+        for (std::size_t place = to; place < rows.first[deal + 1]; ++place)
+            if (rows.distance(place) >= least_distance) std::copy_n(words_at(place), rows.stride, words_at(to++));
+        kept[deal] = to - rows.first[deal];
+    });
+    std::size_t place = 0;
+    for (std::size_t deal = 0; deal < rows.deals(); ++deal) {
+        std::copy_n(words_at(std::exchange(rows.first[deal], place)), kept[deal] * rows.stride, words_at(place));
+        place += kept[deal];
+    }
+    rows.first.back() = place;
+    rows.words.words = rows.words.words.first(place * rows.stride);
 }
 
 }  // namespace
@@ -110,20 +133,24 @@ RowDeals<length> deal_rows(const std::vector<DistinctRows<length>>& parts, int t
 }
 
 template <int length>
-RowDeals<length> deal_again(const RowDeals<length>& dealt, int shift, std::uint32_t least_distance, int threads,
-                            Progress& progress, const HugeBuffer& spare) {
+RowDeals<length> deal_again(RowDeals<length> rows, int shift, std::uint32_t least_distance, int threads,
+                            Progress& progress) {
+    gather(rows, least_distance, threads, progress);
     const auto visit = [&](std::size_t deal, const auto& take) {
-        for (std::size_t place = dealt.first[deal]; place < dealt.first[deal + 1]; ++place)
-            if (const DealtRow<length> row = dealt[place]; row.distance >= least_distance) take(row);
+        for (std::size_t place = rows.first[deal]; place < rows.first[deal + 1]; ++place) take(rows[place]);
     };
-    return deal_out<length>(Sources<decltype(visit)>{dealt.deals(), dealt.rows(), visit}, shift, threads, progress,
-                            spare);
+    const auto before = static_cast<std::size_t>(rows.words.words.data() - rows.memory.data());
+    const auto behind = rows.memory.subspan(before + rows.words.words.size());
+    const HugeBuffer free{before > behind.size() ? rows.memory.first(before) : behind, rows.words.owner};
+    auto dealt =
+        deal_out<length>(Sources<decltype(visit)>{rows.deals(), rows.rows(), visit}, shift, threads, progress, free);
+    if (dealt.words.owner == rows.words.owner) dealt.memory = rows.memory;
+    return dealt;
 }
 
 #define SIGHTLINES_FOR_ROW_LENGTH(length)                                                                             \
     template RowDeals<length> deal_rows(const std::vector<DistinctRows<length>>&, int, Progress&, const HugeBuffer&); \
-    template RowDeals<length> deal_again(const RowDeals<length>&, int, std::uint32_t, int, Progress&,                 \
-                                         const HugeBuffer&);
+    template RowDeals<length> deal_again(RowDeals<length>, int, std::uint32_t, int, Progress&);
 SIGHTLINES_FOR_ROW_LENGTH(1)
 SIGHTLINES_FOR_ROW_LENGTH(2)
 SIGHTLINES_FOR_ROW_LENGTH(4)

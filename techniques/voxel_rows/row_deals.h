@@ -5,21 +5,6 @@
 
 namespace sightlines::voxel_rows {
 
-/// The row moved up by `shift` voxels, 0 to 31; what leaves it is lost. Rows are down-sampled in two ways, as they are
-/// and moved by half of what becomes one voxel, so that a surface at the edge of a coarse voxel in one is in the middle
-/// of another in the other.
-template <int length>
-RowBits<length> shifted(const RowBits<length>& row, int shift) {
-    if (shift == 0) return row;
-    // All of this is by 64 bits: what was just stored by 32 could not be loaded at once as more.
-    RowPlanes<length> planes = planes_of(row);
-    for (std::size_t k = planes.size(); k-- > 0;)
-        planes[k] = planes[k] << shift | (k > 0 ? planes[k - 1] >> (64 - shift) : 0);
-    RowBits<length> moved;
-    std::memcpy(moved.words.data(), planes.data(), sizeof moved);
-    return moved;
-}
-
 /// The row down-sampled by 32, 16 and 8, one after another from the top: rows that are alike after any of these steps
 /// lie together where rows are sorted by it.
 template <int length>
@@ -74,8 +59,9 @@ struct DealtRow {
 template <int length>
 struct RowDeals {
     static constexpr std::size_t stride = static_cast<std::size_t>(length) + 3;
-    HugeBuffer words;                ///< [rows][stride]: bits, count, id, distance
-    std::vector<std::size_t> first;  ///< [deals + 1]; the last is the number of rows
+    HugeBuffer words;                 ///< [rows][stride]: bits, count, id, distance
+    std::span<std::uint32_t> memory;  ///< that the words lie in; the rest of it is free
+    std::vector<std::size_t> first;   ///< [deals + 1]; the last is the number of rows
     /// [deals - 1] ascending: deal d holds the prefixes below cuts[d] that are in no deal before.
     std::vector<std::uint64_t> cuts;
 
@@ -85,6 +71,7 @@ struct RowDeals {
         const std::uint32_t* from = &words.words[place * stride];
         return {load_row<length>(from), from[length], from[length + 1], from[length + 2]};
     }
+    std::uint32_t id(std::size_t place) const { return words.words[place * stride + stride - 2]; }
     std::uint32_t& distance(std::size_t place) const { return words.words[place * stride + stride - 1]; }
 };
 
@@ -94,9 +81,10 @@ template <int length>
 RowDeals<length> deal_rows(const std::vector<DistinctRows<length>>& parts, int threads, Progress& progress,
                            const HugeBuffer& spare = {});
 
-/// Deals those out again whose distance is at least `least_distance`, shifted by `shift`, in `spare` as above.
+/// Deals those out again whose distance is at least `least_distance`, shifted by `shift`: in memory of `rows` where
+/// they are few enough for two copies.
 template <int length>
-RowDeals<length> deal_again(const RowDeals<length>& dealt, int shift, std::uint32_t least_distance, int threads,
-                            Progress& progress, const HugeBuffer& spare = {});
+RowDeals<length> deal_again(RowDeals<length> rows, int shift, std::uint32_t least_distance, int threads,
+                            Progress& progress);
 
 }  // namespace sightlines::voxel_rows

@@ -47,73 +47,81 @@ std::uint32_t light_weight(std::uint32_t free_voxels) {
     return free_voxels * free_voxels * free_voxels >> light_weight_shift<length>;
 }
 
-/// Rays that start at one voxel and end at lights in any of the voxels from there to the end of the row.
-struct Probe {
-    std::uint32_t start;
-    std::uint32_t lights;  ///< light_weight of the voxels before the first set one, or before the row's end
+/// Rays that leave a surface one way and end at lights in any of the voxels from their start to the end of the row.
+/// They start one and two voxels beyond the surface's own, as those that are asked do (their offsets are 1.5 voxels and
+/// a little), where these are clear.
+struct ProbePair {
+    std::uint32_t way;            ///< 0: up; 1: down, in the reversed row
+    std::uint32_t start;          ///< of the first ray; the second one's is the next voxel
+    std::uint32_t second;         ///< all bits where there is a second ray, none where not
+    std::uint32_t first_lights;   ///< light_weight of the voxels before the first set one, or before the row's end
+    std::uint32_t second_lights;  ///< 0 where there is no second ray
 };
 
-/// The rays that leave a row's surfaces one way. They start one and two voxels beyond the surface's own, as those that
-/// are asked do (their offsets are 1.5 voxels and a little), where these are clear.
-template <int length>
-struct Probes {
-    std::array<Probe, 64 * static_cast<std::size_t>(length) / 3 + 1> probes;
-    std::size_t count = 0;
-};
-
-/// `end`: of the row on the rays' way: the resolution on the way up, all 32 * length bits for a reversed row.
-template <int length>
-Probes<length> probes_of(const RowBits<length>& row, std::uint32_t end) {
-    const RowPlanes<length> planes = planes_of(row);
-    Probes<length> made;
-    std::uint64_t before = 0;
-    for (std::size_t k = 0; k < planes.size(); ++k) {
-        const std::uint64_t one_back = planes[k] << 1u | before >> 63u, two_back = planes[k] << 2u | before >> 62u;
-        for (std::uint64_t starts = (one_back | two_back) & ~planes[k]; starts != 0; starts &= starts - 1) {
-            const auto start = static_cast<std::uint32_t>(64 * k + std::countr_zero(starts));
-            if (start >= end) continue;
-            made.probes[made.count++] = {start, light_weight<length>(next_set(planes, start, end) - start)};
-        }
-        before = planes[k];
-    }
-    return made;
-}
-
-/// Both ways.
+/// All of a row's, made gap by gap: the clear voxels between two surfaces are left from both.
 template <int length>
 struct RowProbes {
-    Probes<length> up, down;  ///< down: of the reversed row
-    std::uint32_t up_end = 0;
     static constexpr std::uint32_t down_end = 32 * static_cast<std::uint32_t>(length);
+    std::uint32_t up_end = 0;
+    std::size_t count = 0;
+    std::array<ProbePair, down_end + 1> pairs;
 
-    RowProbes(const RowBits<length>& row, int resolution)
-        : up(probes_of(row, static_cast<std::uint32_t>(resolution))),
-          down(probes_of(reversed(row), down_end)),
-          up_end(static_cast<std::uint32_t>(resolution)) {}
+    RowProbes(const RowBits<length>& row, int resolution) : up_end(static_cast<std::uint32_t>(resolution)) {
+        // Where the bits change, from the row's beginning on: a surface's first voxel and the one behind it by turns.
+        std::array<std::uint32_t, down_end + 1> edges;
+        std::size_t edge_count = 0;
+        std::uint64_t before = 0;
+        const RowPlanes<length> planes = planes_of(row);
+        for (std::size_t k = 0; k < planes.size(); ++k) {
+            for (std::uint64_t left = planes[k] ^ (planes[k] << 1u | before >> 63u); left != 0; left &= left - 1)
+                edges[edge_count++] =
+                    static_cast<std::uint32_t>(64 * k + static_cast<unsigned>(std::countr_zero(left)));
+            before = planes[k];
+        }
+        if (edge_count == 0) return;
+        if (edges[0] > 0) add(1, down_end - edges[0], edges[0]);
+        for (std::size_t k = 1; k + 1 < edge_count; k += 2) {
+            add(0, edges[k], edges[k + 1] - edges[k]);
+            add(1, down_end - edges[k + 1], edges[k + 1] - edges[k]);
+        }
+        const std::uint32_t last = edges[edge_count - 1];
+        if (edge_count % 2 == 0 && last < up_end) add(0, last, up_end - last);
+    }
 
     /// How many lights there are in all.
     std::uint64_t lights() const {
         std::uint64_t sum = 0;
-        for (std::size_t k = 0; k < up.count; ++k) sum += light_weight<length>(up_end - up.probes[k].start);
-        for (std::size_t k = 0; k < down.count; ++k) sum += light_weight<length>(down_end - down.probes[k].start);
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::uint32_t most = end(pairs[k].way) - pairs[k].start;
+            sum += light_weight<length>(most) + (light_weight<length>(most - 1) & pairs[k].second);
+        }
         return sum;
+    }
+
+    std::uint32_t end(std::uint32_t way) const { return way == 0 ? up_end : down_end; }
+
+private:
+    void add(std::uint32_t way, std::uint32_t start, std::uint32_t free_voxels) {
+        const std::uint32_t second = free_voxels > 1 ? ~0u : 0u;
+        pairs[count++] = {way, start, second, light_weight<length>(free_voxels), light_weight<length>(free_voxels - 1)};
     }
 };
 
 /// How many of the lights another row answers differently: for each start, those between the first blockers.
 template <int length>
 std::uint32_t differing_lights(const RowProbes<length>& probes, const RowBits<length>& other) {
-    const auto differing = [](const Probes<length>& way, const RowPlanes<length>& planes, std::uint32_t end) {
-        std::uint32_t sum = 0;
-        for (std::size_t k = 0; k < way.count; ++k) {
-            const Probe& probe = way.probes[k];
-            const auto lights = light_weight<length>(next_set(planes, probe.start, end) - probe.start);
-            sum += std::max(lights, probe.lights) - std::min(lights, probe.lights);
-        }
-        return sum;
+    const std::array ways{planes_of(other), planes_of(reversed(other))};
+    std::uint32_t sum = 0;
+    const auto add = [&](std::uint32_t way, std::uint32_t start, std::uint32_t lights) {
+        const auto others = light_weight<length>(next_set(ways[way], start, probes.end(way)) - start);
+        sum += std::max(others, lights) - std::min(others, lights);
     };
-    return differing(probes.up, planes_of(other), probes.up_end) +
-           differing(probes.down, planes_of(reversed(other)), probes.down_end);
+    for (std::size_t k = 0; k < probes.count; ++k) {
+        const ProbePair& pair = probes.pairs[k];
+        add(pair.way, pair.start, pair.first_lights);
+        if (pair.second != 0) add(pair.way, pair.start + 1, pair.second_lights);
+    }
+    return sum;
 }
 
 /// Voxels that are set in one of the rows only.

@@ -346,8 +346,9 @@ TEST(DictionarySearch, FindsEveryRowAndAllThatMatchItDownSampled) {
                 ASSERT_EQ(matching ? matching->step : coarsest_step + 1, first);
                 if (!matching) continue;
                 const auto best = std::ranges::find_if(rows, [&](const auto& row) { return matches(row, first); });
-                ASSERT_EQ(sorted.index[matching->group.best], static_cast<std::uint32_t>(best - rows.begin()));
-                ASSERT_EQ(matching->group.range.count,
+                const Group& group = group_of(sorted, *matching, step);
+                ASSERT_EQ(sorted.index[group.best], static_cast<std::uint32_t>(best - rows.begin()));
+                ASSERT_EQ(group.range.count,
                           std::ranges::count_if(rows, [&](const auto& row) { return matches(row, first); }));
             }
         }
@@ -368,7 +369,7 @@ TEST(RowDeals, HoldEveryDistinctRowOnceInTheOrderOfTheirPrefixes) {
         parts.push_back({first_id, bits[part], counts[part]});
     }
     Progress progress;
-    const RowDeals<4> dealt = deal_rows(parts, 2, progress);
+    RowDeals<4> dealt = deal_rows(parts, 2, progress);
     EXPECT_GT(dealt.deals(), 2u);
     const auto expect_in_order = [](const RowDeals<4>& deals, int shift) {
         for (std::size_t deal = 0; deal < deals.deals(); ++deal) {
@@ -392,7 +393,7 @@ TEST(RowDeals, HoldEveryDistinctRowOnceInTheOrderOfTheirPrefixes) {
     }
     ASSERT_EQ(dealt.rows(), seen.size());
     expect_in_order(dealt, 0);
-    const RowDeals<4> again = deal_again(dealt, 4, 2u, 2, progress);
+    const RowDeals<4> again = deal_again(std::move(dealt), 4, 2u, 2, progress);
     ASSERT_EQ(again.rows(), 50'000u);
     for (std::size_t place = 0; place < again.rows(); ++place) {
         ASSERT_EQ(again[place].distance, 2u);
