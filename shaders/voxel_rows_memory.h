@@ -67,6 +67,7 @@ FN FourWords load_four_words(Rows rows, RowShape shape, UInt row, int word) {
 #ifdef ROWS_AS_TEXELS
 layout(set = 0, binding = 0) uniform samplerBuffer frame_texels;
 layout(set = 0, binding = 1) uniform usamplerBuffer row_texels;
+layout(set = 0, binding = 2) uniform usamplerBuffer index_texels;   // a word each; read where rows are compressed
 
 FN Frame load_frame(FrameTable frames, Int direction) {
     const vec4 u = texelFetch(frame_texels, 2 * direction);
@@ -95,39 +96,24 @@ FN FourWords load_four_words(Rows rows, RowShape shape, UInt row, int word) {
 
 #endif
 
-/// Two neighbouring words.
-struct TwoWords {
-    uint x;
-    uint y;
-};
-
-/// The word and, where `both`, the one behind it. Texels are asked for only where they are needed: a software device takes
-/// as long for one as for a whole row.
-FN TwoWords load_index_words(Rows rows, uint word, bool both) {
+/// A word of those behind the dictionary.
+FN uint load_index_word(Rows rows, RowShape shape, uint word) {
 #ifdef ROWS_AS_TEXELS
-    const uvec4 words = texelFetch(row_texels, int(word >> 2));
-    const uint place = word & 3u;
-    TwoWords two;
-    two.x = place < 2u ? (place == 0u ? words.x : words.y) : (place == 2u ? words.z : words.w);
-    two.y = place < 2u ? (place == 0u ? words.y : words.z) : words.w;
-    if (place == 3u && both) two.y = texelFetch(row_texels, int(word >> 2) + 1).x;
-    return two;
+    return texelFetch(index_texels, int(word)).x;
 #else
-    TwoWords two;
-    two.x = rows.v[word];
-    two.y = both ? rows.v[word + 1u] : 0u;
-    return two;
+    return rows.v[uint(shape.index_start) + word];
 #endif
 }
 
 /// The row's index in the dictionary. Of 20 bits there are 8 in 5 words.
 FN UInt load_index(Rows rows, RowShape shape, UInt row) {
-    const uint start = uint(shape.index_start);
-    if (shape.index_bits == 32) return load_index_words(rows, start + row, false).x;
+    if (shape.index_bits == 32) return load_index_word(rows, shape, row);
     const uint bit = (row & 7u) * 20u;
     const uint shift = bit & 31u;
-    const TwoWords words = load_index_words(rows, start + (row >> 3) * 5u + (bit >> 5), shift > 12u);
-    return ((words.x >> shift) | shift_left(words.y, 32u - shift)) & 0xfffffu;
+    const uint word = (row >> 3) * 5u + (bit >> 5);
+    const uint low = load_index_word(rows, shape, word) >> shift;
+    const uint high = shift > 12u ? load_index_word(rows, shape, word + 1u) : 0u;
+    return (low | shift_left(high, 32u - shift)) & 0xfffffu;
 }
 #endif
 

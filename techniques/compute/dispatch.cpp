@@ -105,7 +105,8 @@ DeviceOwned<VkBufferView, vkDestroyBufferView> make_view(const Device& device, c
     create.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
     create.buffer = source.buffer->handle.get();
     create.format = source.format;
-    create.range = source.buffer->bytes;
+    create.offset = source.first_byte;
+    create.range = source.buffer->bytes - source.first_byte;
     VkBufferView view = VK_NULL_HANDLE;
     check(vkCreateBufferView(device.logical.get(), &create, nullptr, &view), device, "making a texel view");
     return {view, {device.logical.get()}};
@@ -182,11 +183,11 @@ double submit(const Device& device, const std::function<void(VkCommandBuffer)>& 
     return static_cast<double>(ticks[1] - ticks[0]) * device.seconds_per_tick;
 }
 
-bool fits_as_texels(const Device& device, std::uint64_t bytes) {
+bool fits_as_texels(const Device& device, std::uint64_t bytes, std::uint64_t texel_bytes, std::uint64_t first_byte) {
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(device.physical, &properties);
-    constexpr std::uint64_t texel_bytes = 16;
-    return bytes % texel_bytes == 0 && bytes / texel_bytes <= properties.limits.maxTexelBufferElements;
+    return bytes % texel_bytes == 0 && bytes / texel_bytes <= properties.limits.maxTexelBufferElements &&
+           first_byte % properties.limits.minTexelBufferOffsetAlignment == 0;
 }
 
 BoundTexels bind_texels(const Pipeline& pipeline, std::span<const TexelSource> sources) {

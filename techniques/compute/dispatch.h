@@ -35,14 +35,16 @@ Pipeline make_pipeline(const std::shared_ptr<const Device>& device, std::span<co
                        std::uint32_t push_constant_bytes, std::span<const SpecializationConstant> constants = {},
                        std::uint32_t texel_buffers = 0);
 
-/// A buffer seen as an array of texels, 16 bytes each (R32G32B32A32).
+/// A buffer from `first_byte` to its end, seen as an array of texels.
 struct TexelSource {
     const Buffer* buffer = nullptr;
     VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    std::uint64_t first_byte = 0;
 };
 
-/// Whether the device reads the whole buffer as texels.
-bool fits_as_texels(const Device& device, std::uint64_t bytes);
+/// Whether the device reads so many bytes, from `first_byte` of a buffer, as texels of `texel_bytes` each.
+bool fits_as_texels(const Device& device, std::uint64_t bytes, std::uint64_t texel_bytes = 16,
+                    std::uint64_t first_byte = 0);
 
 /// The texel buffers of one or more dispatches. The buffers must outlive it.
 struct BoundTexels {

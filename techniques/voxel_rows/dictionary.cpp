@@ -20,7 +20,7 @@ constexpr std::uint32_t most_for_left_over = 1024;  ///< the same for one that i
 constexpr int step_to_look_in = 3;  ///< the nearest is looked for among all that match down-sampled by 8, or more
 constexpr std::uint32_t near_enough = 128;   ///< no nearer row is looked for below such a part of the lights
 constexpr std::array later_shifts{4, 2, 6};  ///< half of what becomes one voxel at step_to_look_in, and quarters
-constexpr double least_distance = 0.4;       ///< for a later look, of the mean over all distinct rows
+constexpr double least_distance = 0.5;       ///< for a later look, of the mean over all distinct rows
 constexpr std::uint32_t most_packed_rows = 1u << 20u;
 constexpr std::size_t most_packed_indices = 1'700'000'000;  // whose bytes the wide kernels count in 32 bits
 constexpr std::size_t rows_between_checks = 1024;

@@ -22,6 +22,19 @@ constexpr std::uint32_t mixed_lights = 3;           ///< kind_of_all_lights wher
 constexpr double longest_dispatch_seconds = 0.015;  ///< the window draws on the same device in between
 constexpr std::uint32_t light_step = 32;            ///< lights are cut into multiples of a verdict word
 
+/// Where a compressed array's indices begin.
+std::uint64_t first_index_byte(const RowShape& shape) {
+    return static_cast<std::uint64_t>(shape.index_start) * sizeof(std::uint32_t);
+}
+
+/// Whether the device reads the rows as texels of 16 bytes, and indices as texels of a word.
+bool fits_as_texels(const VulkanRows& rows) {
+    if (rows.shape.words_per_row < 4 || !compute::fits_as_texels(*rows.device, rows.rows.bytes)) return false;
+    const std::uint64_t first = first_index_byte(rows.shape);
+    return rows.shape.index_bits == 0 ||
+           compute::fits_as_texels(*rows.device, rows.rows.bytes - first, sizeof(std::uint32_t), first);
+}
+
 const compute::Pipeline& pipeline_for(const VulkanRows& rows, const PipelineKey& key) {
     const std::lock_guard lock(rows.pipelines_mutex);
     if (const auto found = rows.pipelines.find(key); found != rows.pipelines.end()) return found->second;
@@ -37,7 +50,7 @@ const compute::Pipeline& pipeline_for(const VulkanRows& rows, const PipelineKey&
     }};
     const auto words = rows.as_texels ? spirv::voxel_rows_lighting_texels() : spirv::voxel_rows_lighting();
     compute::Pipeline pipeline =
-        compute::make_pipeline(rows.device, words, sizeof(LightingJob), constants, rows.as_texels ? 2 : 0);
+        compute::make_pipeline(rows.device, words, sizeof(LightingJob), constants, rows.as_texels ? texel_buffers : 0);
     return rows.pipelines.emplace(key, std::move(pipeline)).first->second;
 }
 
@@ -194,8 +207,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 std::optional<compute::BoundTexels> bind_rows(const VulkanRows& rows, const compute::Pipeline& pipeline) {
     if (!rows.as_texels) return std::nullopt;
-    const std::array<compute::TexelSource, 2> sources{
-        {{&rows.frames, VK_FORMAT_R32G32B32A32_SFLOAT}, {&rows.rows, VK_FORMAT_R32G32B32A32_UINT}}};
+    // Something must be bound for the indices where there are none, too.
+    const compute::TexelSource indices =
+        rows.shape.index_bits == 0 ? compute::TexelSource{&rows.frames, VK_FORMAT_R32_UINT}
+                                   : compute::TexelSource{&rows.rows, VK_FORMAT_R32_UINT, first_index_byte(rows.shape)};
+    const std::array<compute::TexelSource, texel_buffers> sources{
+        {{&rows.frames, VK_FORMAT_R32G32B32A32_SFLOAT}, {&rows.rows, VK_FORMAT_R32G32B32A32_UINT}, indices}};
     return compute::bind_texels(pipeline, sources);
 }
 
@@ -209,8 +226,7 @@ std::shared_ptr<const VulkanRows> give_to_vulkan(const RowArray& array, Progress
                                         compute::MemoryPlace::device);
     compute::upload(rows->frames, std::as_bytes(std::span(array.grid.frames)), progress);
     // A software device reads an address word by word and ray by ray, but a texel of 16 bytes at once.
-    rows->as_texels = rows->device->info.kind == compute::DeviceKind::cpu && rows->shape.words_per_row >= 4 &&
-                      compute::fits_as_texels(*rows->device, rows->rows.bytes);
+    rows->as_texels = rows->device->info.kind == compute::DeviceKind::cpu && fits_as_texels(*rows);
     return rows;
 }
 

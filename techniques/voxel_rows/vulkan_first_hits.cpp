@@ -27,7 +27,7 @@ const compute::Pipeline& pipeline_of(const VulkanRows& rows) {
     }};
     const auto words = rows.as_texels ? spirv::voxel_rows_first_hit_texels() : spirv::voxel_rows_first_hit();
     rows.first_hits =
-        compute::make_pipeline(rows.device, words, sizeof(FirstHitJob), constants, rows.as_texels ? 2 : 0);
+        compute::make_pipeline(rows.device, words, sizeof(FirstHitJob), constants, rows.as_texels ? texel_buffers : 0);
     return *rows.first_hits;
 }
 

@@ -12,6 +12,8 @@
 
 namespace sightlines::voxel_rows {
 
+constexpr std::uint32_t texel_buffers = 3;  ///< of a pipeline that reads texels: frames, rows, indices
+
 /// What a pipeline that asks lights is compiled for, besides the array.
 struct PipelineKey {
     int subrays = 1, clip = 0;

@@ -355,7 +355,7 @@ TEST(DictionarySearch, FindsEveryRowAndAllThatMatchItDownSampled) {
     }
 }
 
-TEST(RowDeals, HoldEveryDistinctRowOnceInTheOrderOfTheirPrefixes) {
+TEST(RowDeals, HoldEveryDistinctRowOnceInTheOrderOfTheirPrefixesAndAreDealtAgainInPlace) {
     std::array<Row, 3> bits, counts;
     for (std::uint32_t k = 0; k < 100'000; ++k) {
         for (const std::uint32_t word : {random_u32(7, k, 0), 0u, random_u32(7, k, 1) & random_u32(7, k, 2), k})
@@ -393,13 +393,23 @@ TEST(RowDeals, HoldEveryDistinctRowOnceInTheOrderOfTheirPrefixes) {
     }
     ASSERT_EQ(dealt.rows(), seen.size());
     expect_in_order(dealt, 0);
-    const RowDeals<4> again = deal_again(std::move(dealt), 4, 2u, 2, progress);
-    ASSERT_EQ(again.rows(), 50'000u);
-    for (std::size_t place = 0; place < again.rows(); ++place) {
-        ASSERT_EQ(again[place].distance, 2u);
-        ASSERT_EQ(again[place].row.words[3] % 2, 1u);
+    const void* const memory = dealt.memory.data();
+    for (const std::uint32_t every : {2u, 4u, 8u}) {  // at the end of the memory, at its beginning, at its end
+        dealt = deal_again(std::move(dealt), 4, 2u, 2, progress);
+        EXPECT_EQ(dealt.memory.data(), memory);
+        ASSERT_EQ(dealt.rows(), 100'000u / every);
+        std::vector<bool> seen_again(100'000);
+        for (std::size_t place = 0; place < dealt.rows(); ++place) {
+            ASSERT_EQ(dealt[place].distance, 2u);
+            const std::uint32_t k = dealt[place].row.words[3];
+            ASSERT_EQ(k % every, every - 1);
+            ASSERT_EQ(dealt[place].row, parts[k % 3][k / 3]);
+            ASSERT_FALSE(seen_again[k]);
+            seen_again[k] = true;
+            dealt.distance(place) = k % (2 * every) == 2 * every - 1 ? 2 : 1;
+        }
+        expect_in_order(dealt, 4);
     }
-    expect_in_order(again, 4);
 }
 
 TEST(DictionaryBuild, StopsWhenCancelled) {
