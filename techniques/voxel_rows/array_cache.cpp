@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Grows with every change of what is stored, or of how arrays are made.
-constexpr std::uint32_t format_version = 3;
+constexpr std::uint32_t format_version = 4;
 constexpr const char* extension = ".rows";
 constexpr std::size_t most_steps = 8;
 

@@ -106,6 +106,7 @@ int first_common_step(RowBits<length> a, RowBits<length> b, int least, int end) 
         for (std::size_t k = 0; k < length; ++k)
             differing |= (a.words[k] ^ b.words[k]) & lowest_of_groups[static_cast<std::size_t>(step)];
         if (step >= least && differing == 0) return step;
+        if (step + 1 == end) break;  // a group of 64 would be more than a word
         for (std::size_t k = 0; k < length; ++k) {
             a.words[k] = gather_groups(a.words[k], step);
             b.words[k] = gather_groups(b.words[k], step);
