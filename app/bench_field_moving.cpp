@@ -78,6 +78,7 @@ void field_moments(MeasuredTable& table, BenchRun& run, Results& results, Progre
     if (!run.scenes.empty()) names = run.scenes;
     BakeOptions options = field_ways(run, results).front().bake;
     options.cell_m = cell_m;
+    options.probes = 0;  // moments are dilated, so all anew is, too
     table.setup = count_text(options.points) + " points with " + std::to_string(options.rays) +
                   " rays each; cells of 100 cm" + (run.quick ? "; quick: a small sample" : "");
     for (const std::string& name : names) {
