@@ -251,8 +251,19 @@ Shared<Scene> Results::scene(const Session& session, Progress& progress) {
 
 Shared<std::shared_ptr<const EmbreeScene>> Results::embree(const Session& session, Progress& progress) {
     const auto scene = this->scene(session, progress);
-    return embree_.get(geometry_key(scene_part(at_rest(session)), scene->value), progress, false,
-                       [&] { return build_embree_scene(scene->value, EmbreeUse::reference, threads_, progress); });
+    const Session part = geometry_key(scene_part(at_rest(session)), scene->value);
+    return embree_.get(part, progress, false, [&] {
+        const auto build = [&](PartChoice parts) {
+            return build_embree_scene(scene->value, EmbreeUse::reference, threads_, progress, parts);
+        };
+        Session at_any_time = part;
+        at_any_time.time_s = 0.0;
+        if (fixed_tree_part_ != at_any_time) fixed_tree_ = nullptr;
+        fixed_tree_part_ = at_any_time;
+        if (!anything_moves(scene->value)) return build(PartChoice::all);
+        if (fixed_tree_ == nullptr) fixed_tree_ = build(PartChoice::fixed);
+        return build_moment_tree(scene->value, fixed_tree_, threads_, progress);
+    });
 }
 
 Shared<SurfaceBuffer> Results::surfaces(const Session& session, Progress& progress) {

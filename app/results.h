@@ -161,6 +161,9 @@ private:
     Stage<SceneModel> model_;
     Stage<Scene> scene_;
     Stage<std::shared_ptr<const EmbreeScene>> embree_;
+    /// Of what never moves, for the tree of another time; only the tree's maker touches these two.
+    std::shared_ptr<const EmbreeScene> fixed_tree_;
+    std::optional<Session> fixed_tree_part_;
     Stage<SurfaceBuffer> surfaces_;
     Stage<std::vector<Light>> lights_;
     Stage<EnvironmentLight> surroundings_, environment_;  ///< not turned; turned

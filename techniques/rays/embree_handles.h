@@ -1,6 +1,7 @@
 // What is inside an EmbreeScene. Internal to this folder.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -37,18 +38,27 @@ struct MaskedTriangles {
     std::vector<MaskedTriangle> triangles;
 };
 
-/// Opaque and masked triangles are two Embree geometries, so that opaque ones never pay for a texture lookup.
+/// Opaque and masked triangles are two Embree geometries, so that opaque ones never pay for a texture lookup. The tree
+/// of a moment has none, but the trees of what never changes and of what does, as instances 0 and 1.
 struct EmbreeScene {
     DeviceHandle device;
     SceneHandle scene;
-    std::vector<vec3> positions;                    ///< shared with Embree; one more than vertices, for its wide loads
+    std::vector<vec3> positions;                    ///< shared with Embree; one more than are used, for its wide loads
     std::vector<std::uint32_t> scene_triangles[2];  ///< [geometry][primitive]: index into Scene::triangles
     MaskedTriangles masked;
+    std::array<std::shared_ptr<const EmbreeScene>, 2> joined;  ///< a moment's; of the same device
+    EmbreeUse use = EmbreeUse::reference;
     float extent_m = 1.0f;  ///< largest of the bounds' diagonal and coordinates: what rounding errors scale with
     float reach_m = 1.0f;   ///< how far directional lights are put away: the bounds' diagonal
 };
 
 constexpr unsigned opaque_geometry = 0, masked_geometry = 1;
+
+/// The scene's triangle that Embree's three numbers of a hit stand for.
+inline std::uint32_t triangle_hit(const EmbreeScene& embree, unsigned instance, unsigned geometry, unsigned primitive) {
+    const EmbreeScene& owner = instance == RTC_INVALID_GEOMETRY_ID ? embree : *embree.joined[instance];
+    return owner.scene_triangles[geometry][primitive];
+}
 
 /// Shadow rays end this far above the surface: a hundred-thousandth of the scene's extent. Rounding moves a point of a
 /// surface by less than a hundredth of that (24 bits), and the thinnest things worth a shadow are a hundred times it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -95,15 +96,34 @@ void check_embree(const EmbreeScene& embree) {
     throw EnvironmentError("Embree", "failed with error " + std::to_string(static_cast<int>(error)));
 }
 
-void attach_geometry(const Scene& scene, EmbreeScene& embree, unsigned id) {
+/// Copies the vertices from the first to the last that the sorted triangles use: few where little moves. Gives the
+/// first.
+std::uint32_t copy_positions(const Scene& scene, EmbreeScene& embree) {
+    std::uint32_t first = std::numeric_limits<std::uint32_t>::max(), end = 0;
+    for (const std::vector<std::uint32_t>& members : embree.scene_triangles) {
+        for (const std::uint32_t t : members) {
+            const uvec3 corners = scene.triangles[t];
+            first = std::min({first, corners.x, corners.y, corners.z});
+            end = std::max({end, corners.x + 1, corners.y + 1, corners.z + 1});
+        }
+    }
+    first = std::min(first, end);
+    embree.positions.reserve(end - first + 1u);
+    embree.positions.assign(scene.positions.begin() + first, scene.positions.begin() + end);
+    embree.positions.emplace_back(0.0f);
+    return first;
+}
+
+void attach_geometry(const Scene& scene, std::uint32_t first_vertex, EmbreeScene& embree, unsigned id) {
     const std::vector<std::uint32_t>& members = embree.scene_triangles[id];
     if (members.empty()) return;
     RTCGeometry geometry = rtcNewGeometry(embree.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, embree.positions.data(), 0,
-                               sizeof(vec3), scene.positions.size());
+                               sizeof(vec3), embree.positions.size() - 1);
     auto* indices = static_cast<uvec3*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(uvec3), members.size()));
-    for (std::size_t i = 0; indices != nullptr && i < members.size(); ++i) indices[i] = scene.triangles[members[i]];
+    for (std::size_t i = 0; indices != nullptr && i < members.size(); ++i)
+        indices[i] = scene.triangles[members[i]] - first_vertex;
     if (id == masked_geometry) {
         rtcSetGeometryUserData(geometry, &embree.masked);
         rtcSetGeometryIntersectFilterFunction(geometry, reject_holes);
@@ -154,6 +174,50 @@ bool monitor_build(void* user, double fraction) {
     return true;
 }
 
+DeviceHandle shared_device(const EmbreeScene& embree) {
+    rtcRetainDevice(embree.device.get());
+    return DeviceHandle(embree.device.get());
+}
+
+/// Not committed.
+std::shared_ptr<EmbreeScene> empty_tree(DeviceHandle device, EmbreeUse use) {
+    auto embree = std::make_shared<EmbreeScene>();
+    embree->device = std::move(device);
+    embree->use = use;
+    check_embree(*embree);
+    embree->scene.reset(rtcNewScene(embree->device.get()));
+    check_embree(*embree);
+    // Measured: HIGH quality (spatial splits) makes packets slower by a quarter on Sponza, and changes nothing
+    // elsewhere (count_blocked.cpp).
+    const bool is_reference = use == EmbreeUse::reference;
+    rtcSetSceneBuildQuality(embree->scene.get(), is_reference ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
+    rtcSetSceneFlags(embree->scene.get(), is_reference ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    return embree;
+}
+
+std::shared_ptr<const EmbreeScene> build_tree(const Scene& scene, DeviceHandle device, EmbreeUse use, int threads,
+                                              Progress& progress, PartChoice parts) {
+    progress.begin("building the ray tracer's hierarchy", 100);
+    progress.check();
+    const auto embree = empty_tree(std::move(device), use);
+    const std::vector<std::uint8_t> wanted = triangles_of(scene, parts);
+    set_extents(parts == PartChoice::all ? scene.bounds : bounds_of(scene, wanted), *embree);
+    sort_triangles(scene, wanted, *embree);
+    const std::uint32_t first_vertex = copy_positions(scene, *embree);
+    attach_geometry(scene, first_vertex, *embree, opaque_geometry);
+    attach_geometry(scene, first_vertex, *embree, masked_geometry);
+
+    BuildMonitor monitor{progress};
+    rtcSetSceneProgressMonitorFunction(embree->scene.get(), monitor_build, &monitor);
+    tbb::task_arena arena(thread_count(threads));
+    arena.execute([&] { rtcJoinCommitScene(embree->scene.get()); });
+    rtcSetSceneProgressMonitorFunction(embree->scene.get(), nullptr, nullptr);
+    // In this order: a device that is shared must not be left with the error of a build that was stopped.
+    check_embree(*embree);
+    progress.check();
+    return embree;
+}
+
 RTCRayHit ray_hit(vec3 origin, vec3 direction, float nearest, float farthest) {
     RTCRayHit ray{};
     ray.ray.org_x = origin.x;
@@ -174,36 +238,25 @@ RTCRayHit ray_hit(vec3 origin, vec3 direction, float nearest, float farthest) {
 
 std::shared_ptr<const EmbreeScene> build_embree_scene(const Scene& scene, EmbreeUse use, int threads,
                                                       Progress& progress, PartChoice parts) {
-    progress.begin("building the ray tracer's hierarchy", 100);
-    progress.check();
-    const auto embree = std::make_shared<EmbreeScene>();
-    embree->device.reset(rtcNewDevice(nullptr));
-    check_embree(*embree);
-    embree->scene.reset(rtcNewScene(embree->device.get()));
-    check_embree(*embree);
-    // Measured: HIGH quality (spatial splits) makes packets slower by a quarter on Sponza, and changes nothing
-    // elsewhere (count_blocked.cpp).
-    const bool is_reference = use == EmbreeUse::reference;
-    const RTCBuildQuality quality = is_reference ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
-    rtcSetSceneBuildQuality(embree->scene.get(), quality);
-    rtcSetSceneFlags(embree->scene.get(), is_reference ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    return build_tree(scene, DeviceHandle(rtcNewDevice(nullptr)), use, threads, progress, parts);
+}
 
-    embree->positions = scene.positions;
-    embree->positions.emplace_back(0.0f);
-    const std::vector<std::uint8_t> wanted = triangles_of(scene, parts);
-    set_extents(parts == PartChoice::all ? scene.bounds : bounds_of(scene, wanted), *embree);
-    sort_triangles(scene, wanted, *embree);
-    attach_geometry(scene, *embree, opaque_geometry);
-    attach_geometry(scene, *embree, masked_geometry);
-
-    BuildMonitor monitor{progress};
-    rtcSetSceneProgressMonitorFunction(embree->scene.get(), monitor_build, &monitor);
-    tbb::task_arena arena(thread_count(threads));
-    arena.execute([&] { rtcJoinCommitScene(embree->scene.get()); });
-    rtcSetSceneProgressMonitorFunction(embree->scene.get(), nullptr, nullptr);
-    progress.check();
-    check_embree(*embree);
-    return embree;
+std::shared_ptr<const EmbreeScene> build_moment_tree(const Scene& scene, std::shared_ptr<const EmbreeScene> fixed,
+                                                     int threads, Progress& progress) {
+    const auto moment = empty_tree(shared_device(*fixed), fixed->use);
+    set_extents(scene.bounds, *moment);
+    moment->joined = {fixed,
+                      build_tree(scene, shared_device(*fixed), fixed->use, threads, progress, PartChoice::changing)};
+    for (unsigned id = 0; id < moment->joined.size(); ++id) {
+        RTCGeometry instance = rtcNewGeometry(moment->device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(instance, moment->joined[id]->scene.get());
+        rtcCommitGeometry(instance);
+        rtcAttachGeometryByID(moment->scene.get(), instance, id);
+        rtcReleaseGeometry(instance);
+    }
+    rtcCommitScene(moment->scene.get());
+    check_embree(*moment);
+    return moment;
 }
 
 std::optional<Hit> closest_hit(const EmbreeScene& scene, vec3 origin, vec3 direction, float farthest_m) {
@@ -211,7 +264,8 @@ std::optional<Hit> closest_hit(const EmbreeScene& scene, vec3 origin, vec3 direc
     RTCRayHit ray = ray_hit(origin, direction, 0.0f, farthest_m);
     intersect_1(scene.scene.get(), query, ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return Hit{ray.ray.tfar, scene.scene_triangles[ray.hit.geomID][ray.hit.primID], {ray.hit.u, ray.hit.v}};
+    const std::uint32_t triangle = triangle_hit(scene, ray.hit.instID[0], ray.hit.geomID, ray.hit.primID);
+    return Hit{ray.ray.tfar, triangle, {ray.hit.u, ray.hit.v}};
 }
 
 bool occluded(const EmbreeScene& scene, const Segment& segment, vec3 normal) {

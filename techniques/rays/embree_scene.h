@@ -25,6 +25,12 @@ struct EmbreeScene;  // hides Embree's handles; immutable, shared between thread
 std::shared_ptr<const EmbreeScene> build_embree_scene(const Scene& scene, EmbreeUse use, int threads,
                                                       Progress& progress, PartChoice parts = PartChoice::all);
 
+/// The tree of one moment of a scene that moves: over `fixed`, the tree of its parts that never change (of any moment),
+/// and over the parts that do, for which alone a tree of the same use is built. Rays are answered as by the tree of all
+/// but where they graze; they take a little longer. Throws as build_embree_scene does.
+std::shared_ptr<const EmbreeScene> build_moment_tree(const Scene& scene, std::shared_ptr<const EmbreeScene> fixed,
+                                                     int threads, Progress& progress);
+
 struct Hit {
     float distance_m = 0.0f;
     std::uint32_t triangle = no_triangle;

@@ -92,7 +92,8 @@ struct PrimaryRays {
         intersect_16(valid, embree.scene.get(), query, rays);
         for (int lane = 0; lane < packet_lanes; ++lane) {
             if (valid[lane] == 0 || rays.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
-            const std::uint32_t triangle = embree.scene_triangles[rays.hit.geomID[lane]][rays.hit.primID[lane]];
+            const std::uint32_t triangle =
+                triangle_hit(embree, rays.hit.instID[0][lane], rays.hit.geomID[lane], rays.hit.primID[lane]);
             const int x = left + lane % packet_side;
             const int y = top + lane / packet_side;
             write_surface(scene, triangle, {rays.hit.u[lane], rays.hit.v[lane]},

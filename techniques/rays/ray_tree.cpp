@@ -100,9 +100,14 @@ std::vector<std::uint32_t> place_masks(const MaskedTriangles& masked, std::vecto
     return places;
 }
 
-std::vector<SourceTriangle> all_triangles(const EmbreeScene& embree, std::vector<uvec4>& cutouts) {
+/// Those that hold the triangles: itself, or the two of a moment.
+std::vector<const EmbreeScene*> trees_of(const EmbreeScene& embree) {
+    if (embree.joined[0] == nullptr) return {&embree};
+    return {embree.joined[0].get(), embree.joined[1].get()};
+}
+
+void add_triangles(const EmbreeScene& embree, std::vector<uvec4>& cutouts, std::vector<SourceTriangle>& triangles) {
     const std::vector<std::uint32_t> masks = place_masks(embree.masked, cutouts);
-    std::vector<SourceTriangle> triangles;
     for (const unsigned id : {opaque_geometry, masked_geometry}) {
         const std::size_t count = embree.scene_triangles[id].size();
         if (count == 0) continue;
@@ -122,6 +127,11 @@ std::vector<SourceTriangle> all_triangles(const EmbreeScene& embree, std::vector
             triangles.push_back(triangle);
         }
     }
+}
+
+std::vector<SourceTriangle> all_triangles(const EmbreeScene& embree, std::vector<uvec4>& cutouts) {
+    std::vector<SourceTriangle> triangles;
+    for (const EmbreeScene* tree : trees_of(embree)) add_triangles(*tree, cutouts, triangles);
     return triangles;
 }
 
@@ -176,7 +186,10 @@ struct Flattening {
 }  // namespace
 
 std::uint64_t triangle_count(const EmbreeScene& embree) {
-    return embree.scene_triangles[opaque_geometry].size() + embree.scene_triangles[masked_geometry].size();
+    std::uint64_t count = 0;
+    for (const EmbreeScene* tree : trees_of(embree))
+        for (const std::vector<std::uint32_t>& triangles : tree->scene_triangles) count += triangles.size();
+    return count;
 }
 
 TriangleTables list_triangles(const EmbreeScene& embree) {

@@ -231,11 +231,11 @@ std::shared_ptr<const FixedField> bake_fixed(const Scene& scene, const BakeOptio
     const FieldShape shape = shape_of(scene, options);
     fixed->field.shape = shape;
     fixed->changing_share = changing_share(scene);
-    const auto embree = build_embree_scene(scene, EmbreeUse::benchmark, options.threads, progress, PartChoice::fixed);
-    fixed->lift_m = lift_m(*embree);
+    fixed->embree = build_embree_scene(scene, EmbreeUse::benchmark, options.threads, progress, PartChoice::fixed);
+    fixed->lift_m = lift_m(*fixed->embree);
     fixed->points = place_points(scene, shape, with_share(options, fixed->changing_share), progress, PartChoice::fixed);
     const CellPoints& points = fixed->points;
-    FinishedMasks masks = cast_cells(*embree, points, without_probes(options), progress, &fixed->blocked);
+    FinishedMasks masks = cast_cells(*fixed->embree, points, without_probes(options), progress, &fixed->blocked);
     assemble(points, masks, fixed->field);
     fixed->mask_numbers = numbers_of(fixed->field);
     fixed->labels = std::move(masks.labels);

@@ -17,14 +17,15 @@ namespace sightlines::visibility_field {
 
 /// What all moments of a scene share. Immutable.
 struct FixedField {
-    VisibilityField field;               ///< as if nothing else were there; its grid is round all moments
-    double changing_share = 0.0;         ///< changing_share() of the scene
-    float lift_m = 0.0f;                 ///< how far above the surface its rays start
-    CellPoints points;                   ///< on what stands still
-    std::vector<std::uint32_t> blocked;  ///< [points][words_of_rays]: the rays that meet what stands still
-    std::vector<std::uint8_t> labels;    ///< [cells]
-    MaskNumbers mask_numbers;            ///< of `field.masks`
-    double seconds = 0.0;                ///< that it took
+    VisibilityField field;                      ///< as if nothing else were there; its grid is round all moments
+    double changing_share = 0.0;                ///< changing_share() of the scene
+    float lift_m = 0.0f;                        ///< how far above the surface its rays start
+    CellPoints points;                          ///< on what stands still
+    std::vector<std::uint32_t> blocked;         ///< [points][words_of_rays]: the rays that meet what stands still
+    std::vector<std::uint8_t> labels;           ///< [cells]
+    MaskNumbers mask_numbers;                   ///< of `field.masks`
+    std::shared_ptr<const EmbreeScene> embree;  ///< of what stands still
+    double seconds = 0.0;                       ///< that it took
 };
 
 /// By how much more surface there is to place samples on than what stands still, to a power of two, so that samples

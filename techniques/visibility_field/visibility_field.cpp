@@ -136,8 +136,9 @@ Structure build(const BuildRequest& request, Progress& progress) {
     auto built = std::make_shared<BuiltField>();
     built->options = bake_options(request);
     check_bake(scene, built->options);
-    built->embree = build_embree_scene(scene, EmbreeUse::benchmark, request.threads, progress);
     built->fixed = fixed_field(scene, built->options, request.kept, progress);
+    built->embree = built->fixed ? build_moment_tree(scene, built->fixed->embree, request.threads, progress)
+                                 : build_embree_scene(scene, EmbreeUse::benchmark, request.threads, progress);
     built->field = built->fixed
                        ? bake_moment(*built->fixed, scene, *built->embree, built->options, progress, &built->points)
                        : bake(scene, *built->embree, built->options, progress, &built->points);
