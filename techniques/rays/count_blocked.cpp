@@ -68,7 +68,7 @@ struct Asker {
                     ray.dir_y = aimed.dir_y[lane];
                     ray.dir_z = aimed.dir_z[lane];
                     ray.tfar = shadow_ray_far;
-                    occluded_1(embree.scene.get(), query, ray);
+                    occluded_1(embree, query, ray);
                     ++count.rays;
                     count.blocked += ray.tfar < 0.0f ? 1 : 0;
                 }
@@ -77,11 +77,11 @@ struct Asker {
         return count;
     }
 
-    static void occluded_packet(const int* valid, RTCScene scene, const EmbreeQuery& query, RTCRay8& rays) {
-        occluded_8(valid, scene, query, rays);
+    static void occluded_packet(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay8& rays) {
+        occluded_8(valid, embree, query, rays);
     }
-    static void occluded_packet(const int* valid, RTCScene scene, const EmbreeQuery& query, RTCRay16& rays) {
-        occluded_16(valid, scene, query, rays);
+    static void occluded_packet(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay16& rays) {
+        occluded_16(valid, embree, query, rays);
     }
 
     template <class Packet>
@@ -100,7 +100,7 @@ struct Asker {
                     for (int lane = first; lane < first + lanes; ++lane) asked -= valid[lane];
                     if (asked == 0) continue;
                     aim_packet(block, first, light, embree.reach_m, rays);
-                    occluded_packet(valid + first, embree.scene.get(), query, rays);
+                    occluded_packet(valid + first, embree, query, rays);
                     int blocked = 0;
                     for (int lane = 0; lane < lanes; ++lane)
                         blocked += valid[first + lane] != 0 && rays.tfar[lane] < 0.0f ? 1 : 0;
@@ -131,7 +131,7 @@ struct Asker {
                         rays.tfar[lane] = valid[lane] != 0 ? shadow_ray_far : not_asked;
                     count.rays += static_cast<std::uint64_t>(asked);
                 }
-                occluded_stream(embree.scene.get(), query, packets.data(), used);
+                occluded_stream(embree, query, packets.data(), used);
                 for (unsigned i = 0; i < used; ++i) count.blocked += blocked_lanes(packets[i]);
             }
         }

@@ -1,7 +1,6 @@
 // What is inside an EmbreeScene. Internal to this folder.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -38,15 +37,17 @@ struct MaskedTriangles {
     std::vector<MaskedTriangle> triangles;
 };
 
-/// Opaque and masked triangles are two Embree geometries, so that opaque ones never pay for a texture lookup. The tree
-/// of a moment has none, but the trees of what never changes and of what does, as instances 0 and 1.
+/// Opaque and masked triangles are two Embree geometries, so that opaque ones never pay for a texture lookup.
+/// A moment's tree has those of what changes, numbered after the two of `fixed`.
 struct EmbreeScene {
     DeviceHandle device;
     SceneHandle scene;
     std::vector<vec3> positions;                    ///< shared with Embree; one more than are used, for its wide loads
     std::vector<std::uint32_t> scene_triangles[2];  ///< [geometry][primitive]: index into Scene::triangles
     MaskedTriangles masked;
-    std::array<std::shared_ptr<const EmbreeScene>, 2> joined;  ///< a moment's; of the same device
+    /// A moment's: the tree of what never changes, which every ray asks first. Not an instance: Embree 3.13 does not
+    /// return from some packets that meet one (coherent, robust).
+    std::shared_ptr<const EmbreeScene> fixed;
     EmbreeUse use = EmbreeUse::reference;
     float extent_m = 1.0f;  ///< largest of the bounds' diagonal and coordinates: what rounding errors scale with
     float reach_m = 1.0f;   ///< how far directional lights are put away: the bounds' diagonal
@@ -54,10 +55,40 @@ struct EmbreeScene {
 
 constexpr unsigned opaque_geometry = 0, masked_geometry = 1;
 
-/// The scene's triangle that Embree's three numbers of a hit stand for.
-inline std::uint32_t triangle_hit(const EmbreeScene& embree, unsigned instance, unsigned geometry, unsigned primitive) {
-    const EmbreeScene& owner = instance == RTC_INVALID_GEOMETRY_ID ? embree : *embree.joined[instance];
-    return owner.scene_triangles[geometry][primitive];
+/// Embree's number of a geometry of this tree's own.
+inline unsigned geometry_number(const EmbreeScene& embree, unsigned id) { return embree.fixed ? 2 + id : id; }
+
+/// The scene's triangle that Embree's two numbers of a hit stand for.
+inline std::uint32_t triangle_hit(const EmbreeScene& embree, unsigned geometry, unsigned primitive) {
+    const bool of_fixed = embree.fixed && geometry < 2;
+    return (of_fixed ? *embree.fixed : embree).scene_triangles[geometry % 2][primitive];
+}
+
+// Both trees of a moment are asked in turn. What the first has blocked is not asked again: its tfar is less than tnear.
+
+inline void intersect_1(const EmbreeScene& embree, const EmbreeQuery& query, RTCRayHit& ray) {
+    if (embree.fixed) intersect_1(embree.fixed->scene.get(), query, ray);
+    intersect_1(embree.scene.get(), query, ray);
+}
+inline void intersect_16(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRayHit16& rays) {
+    if (embree.fixed) intersect_16(valid, embree.fixed->scene.get(), query, rays);
+    intersect_16(valid, embree.scene.get(), query, rays);
+}
+inline void occluded_1(const EmbreeScene& embree, const EmbreeQuery& query, RTCRay& ray) {
+    if (embree.fixed) occluded_1(embree.fixed->scene.get(), query, ray);
+    occluded_1(embree.scene.get(), query, ray);
+}
+inline void occluded_8(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay8& rays) {
+    if (embree.fixed) occluded_8(valid, embree.fixed->scene.get(), query, rays);
+    occluded_8(valid, embree.scene.get(), query, rays);
+}
+inline void occluded_16(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay16& rays) {
+    if (embree.fixed) occluded_16(valid, embree.fixed->scene.get(), query, rays);
+    occluded_16(valid, embree.scene.get(), query, rays);
+}
+inline void occluded_stream(const EmbreeScene& embree, const EmbreeQuery& query, RTCRay16* packets, unsigned count) {
+    if (embree.fixed) occluded_stream(embree.fixed->scene.get(), query, packets, count);
+    occluded_stream(embree.scene.get(), query, packets, count);
 }
 
 /// Shadow rays end this far above the surface: a hundred-thousandth of the scene's extent. Rounding moves a point of a

@@ -130,7 +130,7 @@ void attach_geometry(const Scene& scene, std::uint32_t first_vertex, EmbreeScene
         rtcSetGeometryOccludedFilterFunction(geometry, reject_holes);
     }
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(embree.scene.get(), geometry, id);
+    rtcAttachGeometryByID(embree.scene.get(), geometry, geometry_number(embree, id));
     rtcReleaseGeometry(geometry);
     check_embree(embree);
 }
@@ -174,34 +174,27 @@ bool monitor_build(void* user, double fraction) {
     return true;
 }
 
-DeviceHandle shared_device(const EmbreeScene& embree) {
-    rtcRetainDevice(embree.device.get());
-    return DeviceHandle(embree.device.get());
-}
-
-/// Not committed.
-std::shared_ptr<EmbreeScene> empty_tree(DeviceHandle device, EmbreeUse use) {
-    auto embree = std::make_shared<EmbreeScene>();
-    embree->device = std::move(device);
+std::shared_ptr<const EmbreeScene> build_tree(const Scene& scene, EmbreeUse use, int threads, Progress& progress,
+                                              PartChoice parts, std::shared_ptr<const EmbreeScene> fixed) {
+    progress.begin("building the ray tracer's hierarchy", 100);
+    progress.check();
+    const auto embree = std::make_shared<EmbreeScene>();
+    embree->fixed = std::move(fixed);
     embree->use = use;
+    embree->device.reset(rtcNewDevice(nullptr));
     check_embree(*embree);
     embree->scene.reset(rtcNewScene(embree->device.get()));
     check_embree(*embree);
     // Measured: HIGH quality (spatial splits) makes packets slower by a quarter on Sponza, and changes nothing
     // elsewhere (count_blocked.cpp).
     const bool is_reference = use == EmbreeUse::reference;
-    rtcSetSceneBuildQuality(embree->scene.get(), is_reference ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
+    const RTCBuildQuality quality = is_reference ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
+    rtcSetSceneBuildQuality(embree->scene.get(), quality);
     rtcSetSceneFlags(embree->scene.get(), is_reference ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-    return embree;
-}
 
-std::shared_ptr<const EmbreeScene> build_tree(const Scene& scene, DeviceHandle device, EmbreeUse use, int threads,
-                                              Progress& progress, PartChoice parts) {
-    progress.begin("building the ray tracer's hierarchy", 100);
-    progress.check();
-    const auto embree = empty_tree(std::move(device), use);
     const std::vector<std::uint8_t> wanted = triangles_of(scene, parts);
-    set_extents(parts == PartChoice::all ? scene.bounds : bounds_of(scene, wanted), *embree);
+    const bool whole = parts == PartChoice::all || embree->fixed;
+    set_extents(whole ? scene.bounds : bounds_of(scene, wanted), *embree);
     sort_triangles(scene, wanted, *embree);
     const std::uint32_t first_vertex = copy_positions(scene, *embree);
     attach_geometry(scene, first_vertex, *embree, opaque_geometry);
@@ -212,9 +205,8 @@ std::shared_ptr<const EmbreeScene> build_tree(const Scene& scene, DeviceHandle d
     tbb::task_arena arena(thread_count(threads));
     arena.execute([&] { rtcJoinCommitScene(embree->scene.get()); });
     rtcSetSceneProgressMonitorFunction(embree->scene.get(), nullptr, nullptr);
-    // In this order: a device that is shared must not be left with the error of a build that was stopped.
-    check_embree(*embree);
     progress.check();
+    check_embree(*embree);
     return embree;
 }
 
@@ -238,33 +230,21 @@ RTCRayHit ray_hit(vec3 origin, vec3 direction, float nearest, float farthest) {
 
 std::shared_ptr<const EmbreeScene> build_embree_scene(const Scene& scene, EmbreeUse use, int threads,
                                                       Progress& progress, PartChoice parts) {
-    return build_tree(scene, DeviceHandle(rtcNewDevice(nullptr)), use, threads, progress, parts);
+    return build_tree(scene, use, threads, progress, parts, nullptr);
 }
 
 std::shared_ptr<const EmbreeScene> build_moment_tree(const Scene& scene, std::shared_ptr<const EmbreeScene> fixed,
                                                      int threads, Progress& progress) {
-    const auto moment = empty_tree(shared_device(*fixed), fixed->use);
-    set_extents(scene.bounds, *moment);
-    moment->joined = {fixed,
-                      build_tree(scene, shared_device(*fixed), fixed->use, threads, progress, PartChoice::changing)};
-    for (unsigned id = 0; id < moment->joined.size(); ++id) {
-        RTCGeometry instance = rtcNewGeometry(moment->device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(instance, moment->joined[id]->scene.get());
-        rtcCommitGeometry(instance);
-        rtcAttachGeometryByID(moment->scene.get(), instance, id);
-        rtcReleaseGeometry(instance);
-    }
-    rtcCommitScene(moment->scene.get());
-    check_embree(*moment);
-    return moment;
+    const EmbreeUse use = fixed->use;
+    return build_tree(scene, use, threads, progress, PartChoice::changing, std::move(fixed));
 }
 
 std::optional<Hit> closest_hit(const EmbreeScene& scene, vec3 origin, vec3 direction, float farthest_m) {
     const EmbreeQuery query(false);
     RTCRayHit ray = ray_hit(origin, direction, 0.0f, farthest_m);
-    intersect_1(scene.scene.get(), query, ray);
+    intersect_1(scene, query, ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    const std::uint32_t triangle = triangle_hit(scene, ray.hit.instID[0], ray.hit.geomID, ray.hit.primID);
+    const std::uint32_t triangle = triangle_hit(scene, ray.hit.geomID, ray.hit.primID);
     return Hit{ray.ray.tfar, triangle, {ray.hit.u, ray.hit.v}};
 }
 
@@ -272,7 +252,7 @@ bool occluded(const EmbreeScene& scene, const Segment& segment, vec3 normal) {
     const EmbreeQuery query(false);
     const vec3 end = segment.origin + surface_offset_m(scene) * normal;
     RTCRay ray = ray_hit(segment.target, end - segment.target, shadow_ray_near, shadow_ray_far).ray;
-    occluded_1(scene.scene.get(), query, ray);
+    occluded_1(scene, query, ray);
     return ray.tfar < 0.0f;
 }
 

@@ -55,10 +55,10 @@ struct Answers {
 };
 
 void occluded_packet(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay8& rays) {
-    occluded_8(valid, embree.scene.get(), query, rays);
+    occluded_8(valid, embree, query, rays);
 }
 void occluded_packet(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay16& rays) {
-    occluded_16(valid, embree.scene.get(), query, rays);
+    occluded_16(valid, embree, query, rays);
 }
 
 template <class Packet>
@@ -84,7 +84,7 @@ void ask_stream(const EmbreeScene& embree, const LightRecord& light, const Packe
         std::size_t used = 0;
         for (; used < packets_per_stream && first + used * packet_lanes < surfaces.count; ++used)
             aim(embree, light, surfaces, first + used * packet_lanes, packets[used]);
-        occluded_stream(embree.scene.get(), query, packets.data(), static_cast<unsigned>(used));
+        occluded_stream(embree, query, packets.data(), static_cast<unsigned>(used));
         for (std::size_t i = 0; i < used; ++i) answers.take(packets[i], first + i * packet_lanes);
     }
 }
@@ -106,7 +106,7 @@ void ask_single(const EmbreeScene& embree, const LightRecord& light, const Packe
             ray.tnear = shadow_ray_near;
             ray.tfar = shadow_ray_far;
             ray.mask = 0xffffffffu;
-            occluded_1(embree.scene.get(), query, ray);
+            occluded_1(embree, query, ray);
             if (ray.tfar < 0.0f) answers.set(first + lane);
         }
     }

@@ -89,11 +89,10 @@ struct PrimaryRays {
             rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         }
         const EmbreeQuery query(true);
-        intersect_16(valid, embree.scene.get(), query, rays);
+        intersect_16(valid, embree, query, rays);
         for (int lane = 0; lane < packet_lanes; ++lane) {
             if (valid[lane] == 0 || rays.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
-            const std::uint32_t triangle =
-                triangle_hit(embree, rays.hit.instID[0][lane], rays.hit.geomID[lane], rays.hit.primID[lane]);
+            const std::uint32_t triangle = triangle_hit(embree, rays.hit.geomID[lane], rays.hit.primID[lane]);
             const int x = left + lane % packet_side;
             const int y = top + lane / packet_side;
             write_surface(scene, triangle, {rays.hit.u[lane], rays.hit.v[lane]},

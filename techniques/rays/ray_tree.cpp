@@ -100,19 +100,14 @@ std::vector<std::uint32_t> place_masks(const MaskedTriangles& masked, std::vecto
     return places;
 }
 
-/// Those that hold the triangles: itself, or the two of a moment.
-std::vector<const EmbreeScene*> trees_of(const EmbreeScene& embree) {
-    if (embree.joined[0] == nullptr) return {&embree};
-    return {embree.joined[0].get(), embree.joined[1].get()};
-}
-
 void add_triangles(const EmbreeScene& embree, std::vector<uvec4>& cutouts, std::vector<SourceTriangle>& triangles) {
+    if (embree.fixed) add_triangles(*embree.fixed, cutouts, triangles);
     const std::vector<std::uint32_t> masks = place_masks(embree.masked, cutouts);
     for (const unsigned id : {opaque_geometry, masked_geometry}) {
         const std::size_t count = embree.scene_triangles[id].size();
         if (count == 0) continue;
-        const auto* indices = static_cast<const uvec3*>(
-            rtcGetGeometryBufferData(rtcGetGeometry(embree.scene.get(), id), RTC_BUFFER_TYPE_INDEX, 0));
+        const auto* indices = static_cast<const uvec3*>(rtcGetGeometryBufferData(
+            rtcGetGeometry(embree.scene.get(), geometry_number(embree, id)), RTC_BUFFER_TYPE_INDEX, 0));
         for (std::size_t k = 0; k < count; ++k) {
             SourceTriangle triangle;
             for (int corner = 0; corner < 3; ++corner)
@@ -131,7 +126,7 @@ void add_triangles(const EmbreeScene& embree, std::vector<uvec4>& cutouts, std::
 
 std::vector<SourceTriangle> all_triangles(const EmbreeScene& embree, std::vector<uvec4>& cutouts) {
     std::vector<SourceTriangle> triangles;
-    for (const EmbreeScene* tree : trees_of(embree)) add_triangles(*tree, cutouts, triangles);
+    add_triangles(embree, cutouts, triangles);
     return triangles;
 }
 
@@ -186,10 +181,9 @@ struct Flattening {
 }  // namespace
 
 std::uint64_t triangle_count(const EmbreeScene& embree) {
-    std::uint64_t count = 0;
-    for (const EmbreeScene* tree : trees_of(embree))
-        for (const std::vector<std::uint32_t>& triangles : tree->scene_triangles) count += triangles.size();
-    return count;
+    const std::uint64_t own =
+        embree.scene_triangles[opaque_geometry].size() + embree.scene_triangles[masked_geometry].size();
+    return embree.fixed ? own + triangle_count(*embree.fixed) : own;
 }
 
 TriangleTables list_triangles(const EmbreeScene& embree) {
