@@ -141,10 +141,16 @@ void begin_building(const Job& job) {
     if (structure_part(job.objects().wanted->session) != structure_part(job.session)) throw Cancelled();
 }
 
+bool preview_helps(const Job& job) {
+    if (view_is_shown(job.objects(), job.session)) return false;
+    const std::lock_guard lock(job.objects().mutex);
+    return !follows_quickly(job.objects().shown, job.session);
+}
+
 Shared<BuiltStructure> prepare_structure(const Job& job) {
     Shared<BuiltStructure> structure = job.results().latest_structure(job.session);
     if (!structure) {
-        if (!view_is_shown(job.objects(), job.session)) make_preview(job);
+        if (preview_helps(job)) make_preview(job);
         begin_building(job);
         make_room(job);
         structure = job.results().structure(job.session, job.progress);

@@ -7,6 +7,7 @@ namespace sightlines {
 namespace {
 
 constexpr auto between_pictures = std::chrono::milliseconds(80);  // each costs the window a frame
+constexpr double quick_build_s = 0.5;
 
 Session view_key(const Session& session) {
     Session key = reference_part(session);
@@ -50,6 +51,13 @@ bool view_is_shown(Background::Objects& objects, const Session& session) {
         picture = objects.shown.picture;
     }
     return picture && view_key(picture->session) == view_key(session);
+}
+
+bool follows_quickly(const Shown& shown, const Session& session) {
+    if (!shown.picture || !shown.measured.build_s || *shown.measured.build_s > quick_build_s) return false;
+    Session before = shown.picture->session;
+    before.time_s = session.time_s;
+    return view_key(before) == view_key(session) && structure_part(before) == structure_part(session);
 }
 
 Session with_newest_looks(Background::Objects& objects, const Session& session) {

@@ -318,7 +318,8 @@ void draw_image(Frame& frame, const Area& body) {
     const float edge = 8.0f * frame.scale;
     if (const std::string state = state_text(*frame.shown.picture); !state.empty())
         draw_plate(frame, where.area.corner + edge, {0.0f, 0.0f}, state);
-    if (!frame.session.selection.pixel)
+    const bool over_picture = where.area.contains(from_imgui(ImGui::GetIO().MousePos));  // the pixel is told there
+    if (!frame.session.selection.pixel && !over_picture)
         draw_plate(frame, where.area.corner + vec2(0.5f * where.area.size.x, where.area.size.y - edge), {0.5f, 1.0f},
                    lit_by_environment(frame.session) ? "Click a point to follow its samples"
                                                      : "Click a point to follow its light rays");

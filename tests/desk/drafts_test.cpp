@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/desk/refining.h"
 #include "tests/desk/desk_testing.h"
 
 namespace sightlines {
@@ -126,6 +127,30 @@ TEST(Preview, FollowsTheMouseThroughTimeThoughEveryMomentNeedsAStructure) {
         return moments.size() == 3;
     }));
     EXPECT_GT(shown(desk.background).duration_s, 0.0);
+}
+
+TEST(Preview, IsLeftOutWhereOnlyTimeGoesOnAndStructuresAreQuick) {
+    const Session before = wide_session();
+    Session after = before;
+    after.time_s = 0.5;
+    Shown shown;
+    shown.measured.build_s = 0.1;
+    EXPECT_FALSE(follows_quickly(shown, after)) << "nothing is shown";
+    shown.picture = std::make_shared<const PictureShown>(PictureShown{{}, before, PictureState::complete, 1});
+    EXPECT_TRUE(follows_quickly(shown, after));
+    Session other = after;
+    other.scene = "bear";
+    EXPECT_FALSE(follows_quickly(shown, other));
+    other = after;
+    other.parameters["voxel_rows"]["resolution"] = 96.0;
+    EXPECT_FALSE(follows_quickly(shown, other));
+    other = after;
+    other.free_camera = Camera{};
+    EXPECT_FALSE(follows_quickly(shown, other));
+    shown.measured.build_s = 2.0;
+    EXPECT_FALSE(follows_quickly(shown, after));
+    shown.measured.build_s.reset();
+    EXPECT_FALSE(follows_quickly(shown, after));
 }
 
 TEST(Refinement, ShowsThePictureOfTheSameViewBecomingFiner) {
