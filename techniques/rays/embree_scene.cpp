@@ -174,6 +174,22 @@ bool monitor_build(void* user, double fraction) {
     return true;
 }
 
+RTCRayHit ray_hit(vec3 origin, vec3 direction, float nearest, float farthest) {
+    RTCRayHit ray{};
+    ray.ray.org_x = origin.x;
+    ray.ray.org_y = origin.y;
+    ray.ray.org_z = origin.z;
+    ray.ray.tnear = nearest;
+    ray.ray.dir_x = direction.x;
+    ray.ray.dir_y = direction.y;
+    ray.ray.dir_z = direction.z;
+    ray.ray.tfar = farthest;
+    ray.ray.mask = 0xffffffffu;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    return ray;
+}
+
 std::shared_ptr<const EmbreeScene> build_tree(const Scene& scene, EmbreeUse use, int threads, Progress& progress,
                                               PartChoice parts, std::shared_ptr<const EmbreeScene> fixed) {
     progress.begin("building the ray tracer's hierarchy", 100);
@@ -208,22 +224,6 @@ std::shared_ptr<const EmbreeScene> build_tree(const Scene& scene, EmbreeUse use,
     progress.check();
     check_embree(*embree);
     return embree;
-}
-
-RTCRayHit ray_hit(vec3 origin, vec3 direction, float nearest, float farthest) {
-    RTCRayHit ray{};
-    ray.ray.org_x = origin.x;
-    ray.ray.org_y = origin.y;
-    ray.ray.org_z = origin.z;
-    ray.ray.tnear = nearest;
-    ray.ray.dir_x = direction.x;
-    ray.ray.dir_y = direction.y;
-    ray.ray.dir_z = direction.z;
-    ray.ray.tfar = farthest;
-    ray.ray.mask = 0xffffffffu;
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    return ray;
 }
 
 }  // namespace

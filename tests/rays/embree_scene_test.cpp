@@ -161,23 +161,8 @@ TEST(EmbreeScene, StopsBuildingWhenCancelled) {
     EXPECT_THROW(build_embree_scene(scene, EmbreeUse::reference, 2, progress), Cancelled);
 }
 
-/// A horizontal square of 1 m at height 1, masked: the texture's left half is solid, its right half a hole.
-Scene masked_scene(AlphaMode mode) {
-    Material material;
-    material.alpha_mode = mode;
-    material.base_color_texture = TextureLookup{};
-    Scene scene = scene_with_material(material);
-    Texture texture;
-    texture.texels = ImageRgba8({64, 64}, glm::u8vec4(255));
-    for (int y = 0; y < 64; ++y)
-        for (int x = 32; x < 64; ++x) texture.texels.at(x, y).a = 10;
-    scene.textures.push_back(texture);
-    add_quad(scene, {0, 1, 0}, {1, 0, 0}, {0, 0, 1});
-    return scene;
-}
-
 TEST(EmbreeScene, RaysPassThroughTheHolesOfAMaskedTexture) {
-    const Scene scene = masked_scene(AlphaMode::mask);
+    const Scene scene = scene_with_square(AlphaMode::mask);
     for (const EmbreeUse use : {EmbreeUse::reference, EmbreeUse::benchmark}) {
         const auto embree = built(scene, use);
         for (std::uint32_t i = 0; i < 2000; ++i) {
@@ -192,13 +177,13 @@ TEST(EmbreeScene, RaysPassThroughTheHolesOfAMaskedTexture) {
 
 TEST(EmbreeScene, AlphaMattersOnlyWhereTheMaterialIsMasked) {
     for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::blend}) {
-        const auto embree = built(masked_scene(mode));
+        const auto embree = built(scene_with_square(mode));
         EXPECT_TRUE(occluded(*embree, {{0.75f, 0, 0.5f}, {0.75f, 2, 0.5f}}, up));
     }
 }
 
 TEST(EmbreeScene, TheTextureTransformMovesTheHoles) {
-    Scene scene = masked_scene(AlphaMode::mask);
+    Scene scene = scene_with_square(AlphaMode::mask);
     scene.materials[0].base_color_texture->offset = {0.5f, 0.0f};
     const auto embree = built(scene);
     EXPECT_FALSE(occluded(*embree, {{0.25f, 0, 0.5f}, {0.25f, 2, 0.5f}}, up));
@@ -207,7 +192,7 @@ TEST(EmbreeScene, TheTextureTransformMovesTheHoles) {
 
 TEST(EmbreeScene, AMaskedMaterialWithoutTextureIsAllOrNothing) {
     for (const float alpha : {0.4f, 0.6f}) {
-        Scene scene = masked_scene(AlphaMode::mask);
+        Scene scene = scene_with_square(AlphaMode::mask);
         scene.materials[0].base_color_texture.reset();
         scene.materials[0].alpha = alpha;
         EXPECT_EQ(occluded(*built(scene), {{0.25f, 0, 0.5f}, {0.25f, 2, 0.5f}}, up), alpha > 0.5f);
@@ -215,7 +200,7 @@ TEST(EmbreeScene, AMaskedMaterialWithoutTextureIsAllOrNothing) {
 }
 
 TEST(EmbreeScene, OpaqueAndMaskedTrianglesKeepTheirSceneIndices) {
-    Scene scene = masked_scene(AlphaMode::mask);
+    Scene scene = scene_with_square(AlphaMode::mask);
     scene.materials.emplace_back();
     add_quad(scene, {0, 3, 0}, {1, 0, 0}, {0, 0, 1}, 1);
     const auto embree = built(scene);

@@ -81,6 +81,30 @@ TEST(MomentTree, ShowsTheSurfacesThatTheTreeOfAllShows) {
     EXPECT_EQ(surfaces.position, expected.position);
 }
 
+TEST(MomentTree, AnswersPacketsAndStreamsAsTheTreeOfAll) {
+    const Scene scene = moving_soup(vec3(0.3f, -0.2f, 0.1f));
+    const auto tree = moment_tree(scene, fixed_tree(scene)), all = built(scene);
+    const SurfaceBuffer surfaces = seen(scene, *all, camera_at({0, 0, 4}, {0, 0, 0}), {64, 48});
+    std::vector<Light> lights;
+    for (std::uint32_t i = 0; i < 40; ++i) lights.push_back(point_light(random_point(around, i, 7)));
+    RenderRequest request;
+    request.surfaces = &surfaces;
+    request.lights = lights;
+    request.keep_verdicts = true;
+    Progress progress;
+    const RenderResult result = render_reference(*tree, request, progress);
+    const RenderResult expected = render_reference(*all, request, progress);
+    EXPECT_GT(expected.rays, 10'000u);
+    EXPECT_EQ(result.verdicts.words, expected.verdicts.words);
+    for (const EmbreeVariant variant :
+         {EmbreeVariant::single, EmbreeVariant::packet_8, EmbreeVariant::packet_16, EmbreeVariant::stream}) {
+        const QueryCount one = count_blocked(*tree, variant, surfaces, lights, 2);
+        const QueryCount other = count_blocked(*all, variant, surfaces, lights, 2);
+        EXPECT_EQ(one.rays, other.rays);
+        EXPECT_EQ(one.blocked, other.blocked);
+    }
+}
+
 TEST(MomentTree, KeepsTheFixedTreeAlive) {
     const Scene scene = moving_soup(vec3(0.1f));
     auto fixed = fixed_tree(scene);
@@ -101,16 +125,7 @@ TEST(MomentTree, ServesScenesInWhichEverythingMovesOrNothingDoes) {
 
 /// Two squares of which the left halves are solid; the upper one moves.
 TEST(MomentTree, KnowsTheHolesOfWhatStandsAndOfWhatMoves) {
-    Material material;
-    material.alpha_mode = AlphaMode::mask;
-    material.base_color_texture = TextureLookup{};
-    Scene scene = scene_with_material(material);
-    Texture texture;
-    texture.texels = ImageRgba8({64, 64}, glm::u8vec4(255));
-    for (int y = 0; y < 64; ++y)
-        for (int x = 32; x < 64; ++x) texture.texels.at(x, y).a = 10;
-    scene.textures.push_back(texture);
-    add_quad(scene, {0, 1, 0}, {1, 0, 0}, {0, 0, 1});
+    Scene scene = scene_with_square(AlphaMode::mask);
     add_quad(scene, {2, 2, 0}, {1, 0, 0}, {0, 0, 1});
     scene.parts = {part(0, 2, false), part(2, 2, true)};
     const auto tree = moment_tree(scene, fixed_tree(scene));

@@ -91,6 +91,21 @@ inline void add_sphere(Scene& scene, vec3 centre, float radius, std::uint32_t sl
     scene.light_volume = scene.bounds;
 }
 
+/// A horizontal square of 1 m at height 1, textured: its left half is solid, its right half a hole where masked.
+inline Scene scene_with_square(AlphaMode mode) {
+    Material material;
+    material.alpha_mode = mode;
+    material.base_color_texture = TextureLookup{};
+    Scene scene = scene_with_material(material);
+    Texture texture;
+    texture.texels = ImageRgba8({64, 64}, glm::u8vec4(255));
+    for (int y = 0; y < 64; ++y)
+        for (int x = 32; x < 64; ++x) texture.texels.at(x, y).a = 10;
+    scene.textures.push_back(texture);
+    add_quad(scene, {0, 1, 0}, {1, 0, 0}, {0, 0, 1});
+    return scene;
+}
+
 inline vec3 random_point(const Box3& box, std::uint32_t index, std::uint64_t seed = 1) {
     const vec3 unit(random_unit(seed, index, 0), random_unit(seed, index, 1), random_unit(seed, index, 2));
     return box.lowest + unit * box.size();
