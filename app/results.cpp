@@ -256,13 +256,10 @@ Shared<std::shared_ptr<const EmbreeScene>> Results::embree(const Session& sessio
         const auto build = [&](PartChoice parts) {
             return build_embree_scene(scene->value, EmbreeUse::reference, threads_, progress, parts);
         };
-        Session at_any_time = part;
-        at_any_time.time_s = 0.0;
-        if (fixed_tree_part_ != at_any_time) fixed_tree_ = nullptr;
-        fixed_tree_part_ = at_any_time;
+        std::shared_ptr<const EmbreeScene>& fixed = fixed_tree_.of(part);
         if (!anything_moves(scene->value)) return build(PartChoice::all);
-        if (fixed_tree_ == nullptr) fixed_tree_ = build(PartChoice::fixed);
-        return build_moment_tree(scene->value, fixed_tree_, threads_, progress);
+        if (fixed == nullptr) fixed = build(PartChoice::fixed);
+        return build_moment_tree(scene->value, fixed, threads_, progress);
     });
 }
 
@@ -326,15 +323,11 @@ Shared<BuiltStructure> Results::structure(const Session& session, Progress& prog
         BuiltStructure built{&find_technique(session.technique), scene, {}, {}};
         BuildRequest request{&scene->value, technique_parameters(session), backend(session), threads_};
         request.cache_folder = cache_folder;
-        Session at_any_time = part;
-        at_any_time.time_s = 0.0;
-        // Stays where this build is cancelled, as it is when time moves on.
-        if (kept_part_ != at_any_time) kept_ = {};
-        request.kept = kept_;
+        std::any& kept = kept_.of(part);  // stays where this build is cancelled, as it is when time moves on
+        request.kept = kept;
         built.structure = built.technique->build(request, progress);
         built.statistics = built.technique->statistics(built.structure);
-        kept_part_ = at_any_time;
-        if (built.technique->kept) kept_ = built.technique->kept(built.structure);
+        if (built.technique->kept) kept = built.technique->kept(built.structure);
         return built;
     });
 }

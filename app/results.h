@@ -88,6 +88,23 @@ private:
     Shared<Value> value_;
 };
 
+/// What the results of all times share. Only the maker of its stage touches it.
+template <class Value>
+class AtAnyTime {
+public:
+    /// What was left for `part` at whatever time; empty where the latest was for another part.
+    Value& of(Session part) {
+        part.time_s = 0.0;
+        if (part_ != part) value_ = {};
+        part_ = std::move(part);
+        return value_;
+    }
+
+private:
+    std::optional<Session> part_;
+    Value value_{};
+};
+
 /// Called after each refinement pass over a region with the picture so far (RenderRequest::on_region).
 using OnRegion = std::function<void(const RenderResult& so_far, PixelRect changed)>;
 
@@ -161,16 +178,13 @@ private:
     Stage<SceneModel> model_;
     Stage<Scene> scene_;
     Stage<std::shared_ptr<const EmbreeScene>> embree_;
-    /// Of what never moves, for the tree of another time; only the tree's maker touches these two.
-    std::shared_ptr<const EmbreeScene> fixed_tree_;
-    std::optional<Session> fixed_tree_part_;
+    AtAnyTime<std::shared_ptr<const EmbreeScene>> fixed_tree_;  ///< of what never moves
     Stage<SurfaceBuffer> surfaces_;
     Stage<std::vector<Light>> lights_;
     Stage<EnvironmentLight> surroundings_, environment_;  ///< not turned; turned
     Stage<std::any> samples_;
     Stage<BuiltStructure> structure_;
-    std::any kept_;  ///< for the structure of another time; only its maker touches these two
-    std::optional<Session> kept_part_;
+    AtAnyTime<std::any> kept_;  ///< for the structure of another time
     Stage<RenderResult> picture_, reference_;
     Stage<ErrorMetrics> errors_, compression_;
 };

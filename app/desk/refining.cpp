@@ -54,7 +54,8 @@ bool view_is_shown(Background::Objects& objects, const Session& session) {
 }
 
 bool follows_quickly(const Shown& shown, const Session& session) {
-    if (!shown.picture || !shown.measured.build_s || *shown.measured.build_s > quick_build_s) return false;
+    if (!shown.picture || shown.picture->state == PictureState::preview) return false;
+    if (!shown.measured.build_s || *shown.measured.build_s > quick_build_s) return false;
     Session before = shown.picture->session;
     before.time_s = session.time_s;
     return view_key(before) == view_key(session) && structure_part(before) == structure_part(session);

@@ -28,8 +28,8 @@ void refine(Refining& refining, const RenderResult& so_far, PixelRect changed);
 /// Whether what is shown is a picture of the same scene, camera and lights, whatever its size, technique or looks.
 bool view_is_shown(Background::Objects& objects, const Session& session);
 
-/// Whether only time has gone on since the shown picture, and its structure took less than half a second: this one's
-/// own picture is there soon, and a preview in between would flicker.
+/// Whether only time has gone on since the technique's picture that is shown, and its structure took less than half a
+/// second: this one's own picture is there soon, and a preview in between would flicker.
 bool follows_quickly(const Shown& shown, const Session& session);
 
 /// The session with the newest looks, selection and layout, where the window wants the same picture still.

@@ -77,13 +77,6 @@ struct Asker {
         return count;
     }
 
-    static void occluded_packet(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay8& rays) {
-        occluded_8(valid, embree, query, rays);
-    }
-    static void occluded_packet(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay16& rays) {
-        occluded_16(valid, embree, query, rays);
-    }
-
     template <class Packet>
     Count ask_packets(const Tile& tile) const {
         constexpr int lanes = sizeof(Packet::tnear) / sizeof(float);

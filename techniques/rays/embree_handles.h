@@ -53,42 +53,42 @@ struct EmbreeScene {
     float reach_m = 1.0f;   ///< how far directional lights are put away: the bounds' diagonal
 };
 
-constexpr unsigned opaque_geometry = 0, masked_geometry = 1;
+constexpr unsigned opaque_geometry = 0, masked_geometry = 1, geometries_per_tree = 2;
 
 /// Embree's number of a geometry of this tree's own.
-inline unsigned geometry_number(const EmbreeScene& embree, unsigned id) { return embree.fixed ? 2 + id : id; }
+inline unsigned geometry_number(const EmbreeScene& embree, unsigned id) {
+    return embree.fixed ? geometries_per_tree + id : id;
+}
 
 /// The scene's triangle that Embree's two numbers of a hit stand for.
 inline std::uint32_t triangle_hit(const EmbreeScene& embree, unsigned geometry, unsigned primitive) {
-    const bool of_fixed = embree.fixed && geometry < 2;
-    return (of_fixed ? *embree.fixed : embree).scene_triangles[geometry % 2][primitive];
+    const bool of_fixed = embree.fixed && geometry < geometries_per_tree;
+    return (of_fixed ? *embree.fixed : embree).scene_triangles[geometry % geometries_per_tree][primitive];
 }
 
-// Both trees of a moment are asked in turn. What the first has blocked is not asked again: its tfar is less than tnear.
-
+/// Asks both trees of a moment. What the first has blocked is not asked again: its tfar is less than tnear.
+template <class Ask>
+void ask_in_turn(const EmbreeScene& embree, const Ask& ask) {
+    if (embree.fixed) ask(embree.fixed->scene.get());
+    ask(embree.scene.get());
+}
 inline void intersect_1(const EmbreeScene& embree, const EmbreeQuery& query, RTCRayHit& ray) {
-    if (embree.fixed) intersect_1(embree.fixed->scene.get(), query, ray);
-    intersect_1(embree.scene.get(), query, ray);
+    ask_in_turn(embree, [&](RTCScene scene) { intersect_1(scene, query, ray); });
 }
 inline void intersect_16(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRayHit16& rays) {
-    if (embree.fixed) intersect_16(valid, embree.fixed->scene.get(), query, rays);
-    intersect_16(valid, embree.scene.get(), query, rays);
+    ask_in_turn(embree, [&](RTCScene scene) { intersect_16(valid, scene, query, rays); });
 }
 inline void occluded_1(const EmbreeScene& embree, const EmbreeQuery& query, RTCRay& ray) {
-    if (embree.fixed) occluded_1(embree.fixed->scene.get(), query, ray);
-    occluded_1(embree.scene.get(), query, ray);
+    ask_in_turn(embree, [&](RTCScene scene) { occluded_1(scene, query, ray); });
 }
-inline void occluded_8(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay8& rays) {
-    if (embree.fixed) occluded_8(valid, embree.fixed->scene.get(), query, rays);
-    occluded_8(valid, embree.scene.get(), query, rays);
+inline void occluded_packet(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay8& rays) {
+    ask_in_turn(embree, [&](RTCScene scene) { occluded_8(valid, scene, query, rays); });
 }
-inline void occluded_16(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay16& rays) {
-    if (embree.fixed) occluded_16(valid, embree.fixed->scene.get(), query, rays);
-    occluded_16(valid, embree.scene.get(), query, rays);
+inline void occluded_packet(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay16& rays) {
+    ask_in_turn(embree, [&](RTCScene scene) { occluded_16(valid, scene, query, rays); });
 }
 inline void occluded_stream(const EmbreeScene& embree, const EmbreeQuery& query, RTCRay16* packets, unsigned count) {
-    if (embree.fixed) occluded_stream(embree.fixed->scene.get(), query, packets, count);
-    occluded_stream(embree.scene.get(), query, packets, count);
+    ask_in_turn(embree, [&](RTCScene scene) { occluded_stream(scene, query, packets, count); });
 }
 
 /// Shadow rays end this far above the surface: a hundred-thousandth of the scene's extent. Rounding moves a point of a

@@ -26,8 +26,9 @@ std::shared_ptr<const EmbreeScene> build_embree_scene(const Scene& scene, Embree
                                                       Progress& progress, PartChoice parts = PartChoice::all);
 
 /// The tree of one moment of a scene that moves: over `fixed`, the tree of its parts that never change (of any moment),
-/// and over the parts that do, for which alone a tree of the same use is built. Rays are answered as by the tree of all
-/// but where they graze; they take a little longer. Throws as build_embree_scene does.
+/// and over the parts that do, for which alone a tree of the same use is built. Rays are answered as by the tree of
+/// all, but for which of two surfaces in one place is hit; they take a little longer. Throws as build_embree_scene
+/// does.
 std::shared_ptr<const EmbreeScene> build_moment_tree(const Scene& scene, std::shared_ptr<const EmbreeScene> fixed,
                                                      int threads, Progress& progress);
 

@@ -32,7 +32,7 @@ void are_blocked(const EmbreeScene& embree, const PackedOpenRays& rays, std::spa
         std::ranges::fill(packet.tfar, std::numeric_limits<float>::infinity());
         const std::size_t used = std::min(packet_lanes, rays.count - first);
         for (std::size_t lane = 0; lane < packet_lanes; ++lane) valid[lane] = lane < used ? -1 : 0;
-        occluded_16(valid, embree, query, packet);
+        occluded_packet(valid, embree, query, packet);
         std::uint32_t bits = 0;
         for (std::size_t lane = 0; lane < packet_lanes; ++lane) bits |= std::uint32_t{packet.tfar[lane] < 0.0f} << lane;
         blocked[first / 32] |= bits << (first % 32);

@@ -54,13 +54,6 @@ struct Answers {
     }
 };
 
-void occluded_packet(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay8& rays) {
-    occluded_8(valid, embree, query, rays);
-}
-void occluded_packet(const int* valid, const EmbreeScene& embree, const EmbreeQuery& query, RTCRay16& rays) {
-    occluded_16(valid, embree, query, rays);
-}
-
 template <class Packet>
 void ask_packets(const EmbreeScene& embree, const LightRecord& light, const PackedSurfaces& surfaces,
                  const Answers& answers) {

@@ -35,7 +35,7 @@ struct ReferenceRender {
         if (mark_asked(block, light, embree.reach_m, valid) == 0) return;
         aim_packet(block, 0, light, embree.reach_m, rays);
         const EmbreeQuery query(true);
-        occluded_16(valid, embree, query, rays);
+        occluded_packet(valid, embree, query, rays);
         for (std::size_t lane = 0; lane < block_lanes; ++lane) {
             if (valid[lane] == 0) continue;
             const std::size_t pixel = block.pixel[lane];

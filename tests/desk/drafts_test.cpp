@@ -149,6 +149,9 @@ TEST(Preview, IsLeftOutWhereOnlyTimeGoesOnAndStructuresAreQuick) {
     EXPECT_FALSE(follows_quickly(shown, other));
     shown.measured.build_s = 2.0;
     EXPECT_FALSE(follows_quickly(shown, after));
+    shown.measured.build_s = 0.1;
+    shown.picture = std::make_shared<const PictureShown>(PictureShown{{}, before, PictureState::preview, 1});
+    EXPECT_FALSE(follows_quickly(shown, after)) << "the structure of this picture is not there yet";
     shown.measured.build_s.reset();
     EXPECT_FALSE(follows_quickly(shown, after));
 }
