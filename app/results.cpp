@@ -209,6 +209,8 @@ PictureRequest Results::request(const Session& session, const SurfaceBuffer& sur
         request.environment = &asked.environment->value;
         request.samples = &asked.samples->value;
     }
+    asked.scene = scene(session, progress);
+    request.scene = &asked.scene->value;
     request.surfaces = &surfaces;
     request.lights = lights;
     request.parameters = technique_parameters(session);

@@ -110,6 +110,7 @@ using OnRegion = std::function<void(const RenderResult& so_far, PixelRect change
 
 /// A request with what it must not outlive, but for the surfaces and lights.
 struct PictureRequest {
+    Shared<Scene> scene;
     Shared<EnvironmentLight> environment;  ///< null where the technique is lit by lights
     Shared<std::any> samples;              ///< likewise
     RenderRequest request;

@@ -91,6 +91,8 @@ struct PixelRecorder {
     Shared<BuiltStructure> structure;
     Shared<std::shared_ptr<const EmbreeScene>> embree;
     ParameterValues parameters;
+    Shared<EnvironmentLight> environment;  ///< null where it is lit by lights
+    std::uint64_t seed = 1;
     ivec2 pixel{0};
     std::size_t index = 0;               ///< of the pixel
     std::vector<std::uint32_t> asked{};  ///< by the pixel, in order
@@ -107,7 +109,13 @@ struct PixelRecorder {
 
     SelectedRay record(std::uint32_t light) const {
         SelectedRay recorded{pixel, light, {}, {}, false};
-        recorded.request = {surfaces->value.position[index], surfaces->value.normal[index], lights[light], parameters};
+        recorded.request = {surfaces->value.position[index],
+                            surfaces->value.normal[index],
+                            lights[light],
+                            parameters,
+                            &structure->value.scene->value,
+                            environment ? &environment->value : nullptr,
+                            seed};
         recorded.trace = structure->value.technique->trace(structure->value.structure, recorded.request);
         recorded.truly_blocked = is_truly_blocked(recorded);
         return recorded;
@@ -135,6 +143,8 @@ PixelRecorder pixel_recorder(const Session& session, std::optional<ivec2> known_
     recorder.structure = results.structure(session, progress);
     recorder.embree = results.embree(session, progress);
     recorder.parameters = technique_parameters(session);
+    if (recorder.samples) recorder.environment = results.environment(session, progress);
+    recorder.seed = session.seed;
     return recorder;
 }
 

@@ -38,6 +38,7 @@ struct RenderResult;
 /// One picture to make. The spans must outlive the call.
 struct RenderRequest {
     const SurfaceBuffer* surfaces = nullptr;
+    const Scene* scene = nullptr;  ///< that the surfaces are of: for rays that go on from what they hit
     std::span<const Light> lights;
     const EnvironmentLight* environment = nullptr;  ///< not null where the technique is lit by it, instead of lights
     const std::any* samples = nullptr;              ///< EnvironmentLit::samples; null: the technique makes them itself
@@ -77,6 +78,9 @@ struct TraceRequest {
     vec3 position{0.0f}, normal{0.0f};  ///< as in SurfaceBuffer
     Light light;
     ParameterValues parameters;
+    const Scene* scene = nullptr;  ///< these as in RenderRequest
+    const EnvironmentLight* environment = nullptr;
+    std::uint64_t seed = 1;
 };
 
 struct Statistic {

@@ -41,14 +41,24 @@ struct Hit {
 /// The nearest surface along origin + t direction, t in (0, farthest_m).
 std::optional<Hit> closest_hit(const EmbreeScene& scene, vec3 origin, vec3 direction, float farthest_m);
 
+/// What a ray hits, as a surface.
+struct SurfaceAt {
+    vec3 position{0.0f};        ///< m
+    vec3 normal{0.0f};          ///< unit geometric normal, turned against the ray
+    vec3 shading_normal{0.0f};  ///< unit interpolated normal, on the same side
+    vec3 albedo{0.0f};          ///< linear diffuse reflectance; a metal keeps half of its colour (it would be black else)
+    vec3 emission{0.0f};        ///< radiance
+    vec2 gloss{1.0f, 0.0f};     ///< roughness and metalness
+};
+SurfaceAt surface_at(const Scene& scene, const Hit& hit, vec3 ray_direction);
+
 /// Whether anything lies between the two points: exactly the ray that the reference asks. `normal` is the surface's at
 /// the origin (unit, turned towards the camera): the ray leaves the surface 1e-5 of the scene's extent along it, and
 /// stops 1e-5 of its own length short of the target.
 bool occluded(const EmbreeScene& scene, const Segment& segment, vec3 normal);
 
 /// Primary visibility: what the camera sees under each pixel's middle, by packets of 16. `scene` is the one that the
-/// tree was built from. Albedo is the base colour; a metal keeps half of its colour (it would be black under diffuse
-/// light otherwise).
+/// tree was built from.
 SurfaceBuffer visible_surfaces(const Scene& scene, const EmbreeScene& embree, const Camera& camera, ImageSize size,
                                int threads, Progress& progress);
 

@@ -26,7 +26,11 @@ vec3 lifted_off(const EmbreeScene& embree, vec3 position, vec3 normal);
 /// `blocked` holds enough words, all of which are written.
 void are_blocked(const EmbreeScene& embree, const PackedOpenRays& rays, std::span<std::uint32_t> blocked);
 
-/// The same for one ray.
+/// What each ray hits first, by packets of 16; its triangle is no_triangle where that is nothing. `hits` holds `count`
+/// or more.
+void find_closest(const EmbreeScene& embree, const PackedOpenRays& rays, std::span<Hit> hits);
+
+/// Whether anything is in the way of one ray.
 bool is_blocked(const EmbreeScene& embree, vec3 origin, vec3 direction);
 
 }  // namespace sightlines

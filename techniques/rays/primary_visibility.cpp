@@ -31,30 +31,14 @@ vec3 unit_or(vec3 vector, vec3 otherwise) {
     return std::isfinite(length) && length > 0.0f ? vector / length : otherwise;
 }
 
-void write_surface(const Scene& scene, std::uint32_t triangle, vec2 barycentric, vec3 ray_direction, std::size_t pixel,
-                   SurfaceBuffer& surfaces) {
-    const uvec3 vertices = scene.triangles[triangle];
-    const vec3 weights(1.0f - barycentric.x - barycentric.y, barycentric.x, barycentric.y);
-    const vec3 a = scene.positions[vertices.x];
-    const vec3 b = scene.positions[vertices.y];
-    const vec3 c = scene.positions[vertices.z];
+void write_surface(const SurfaceAt& seen, std::uint32_t triangle, std::size_t pixel, SurfaceBuffer& surfaces) {
     surfaces.triangle[pixel] = triangle;
-    surfaces.position[pixel] = weights.x * a + weights.y * b + weights.z * c;
-
-    vec3 normal = unit_or(glm::cross(b - a, c - a), -ray_direction);
-    if (glm::dot(normal, ray_direction) > 0.0f) normal = -normal;
-    vec3 shading_normal = unit_or(weights.x * scene.normals[vertices.x] + weights.y * scene.normals[vertices.y] +
-                                      weights.z * scene.normals[vertices.z],
-                                  normal);
-    if (glm::dot(shading_normal, normal) < 0.0f) shading_normal = -shading_normal;
-    surfaces.normal[pixel] = normal;
-    surfaces.shading_normal[pixel] = shading_normal;
-
-    const Material& material = scene.materials[scene.triangle_materials[triangle]];
-    surfaces.albedo[pixel] = diffuse_albedo(scene, triangle, barycentric);
-    surfaces.gloss[pixel] = {material.roughness, material.metallic};
-    surfaces.emission[pixel] =
-        material.emissive * vec3(looked_up(scene, material.emissive_texture, triangle, barycentric));
+    surfaces.position[pixel] = seen.position;
+    surfaces.normal[pixel] = seen.normal;
+    surfaces.shading_normal[pixel] = seen.shading_normal;
+    surfaces.albedo[pixel] = seen.albedo;
+    surfaces.gloss[pixel] = seen.gloss;
+    surfaces.emission[pixel] = seen.emission;
 }
 
 struct PrimaryRays {
@@ -92,11 +76,12 @@ struct PrimaryRays {
         intersect_16(valid, embree, query, rays);
         for (int lane = 0; lane < packet_lanes; ++lane) {
             if (valid[lane] == 0 || rays.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
-            const std::uint32_t triangle = triangle_hit(embree, rays.hit.geomID[lane], rays.hit.primID[lane]);
+            const Hit hit{rays.ray.tfar[lane], triangle_hit(embree, rays.hit.geomID[lane], rays.hit.primID[lane]),
+                          {rays.hit.u[lane], rays.hit.v[lane]}};
             const int x = left + lane % packet_side;
             const int y = top + lane / packet_side;
-            write_surface(scene, triangle, {rays.hit.u[lane], rays.hit.v[lane]},
-                          directions[static_cast<std::size_t>(lane)], pixel_index(size, x, y), surfaces);
+            write_surface(surface_at(scene, hit, directions[static_cast<std::size_t>(lane)]), hit.triangle,
+                          pixel_index(size, x, y), surfaces);
         }
     }
 
@@ -106,6 +91,29 @@ struct PrimaryRays {
 };
 
 }  // namespace
+
+SurfaceAt surface_at(const Scene& scene, const Hit& hit, vec3 ray_direction) {
+    const uvec3 vertices = scene.triangles[hit.triangle];
+    const vec2 barycentric = hit.barycentric;
+    const vec3 weights(1.0f - barycentric.x - barycentric.y, barycentric.x, barycentric.y);
+    const vec3 a = scene.positions[vertices.x];
+    const vec3 b = scene.positions[vertices.y];
+    const vec3 c = scene.positions[vertices.z];
+    SurfaceAt surface;
+    surface.position = weights.x * a + weights.y * b + weights.z * c;
+    surface.normal = unit_or(glm::cross(b - a, c - a), -ray_direction);
+    if (glm::dot(surface.normal, ray_direction) > 0.0f) surface.normal = -surface.normal;
+    surface.shading_normal = unit_or(weights.x * scene.normals[vertices.x] + weights.y * scene.normals[vertices.y] +
+                                         weights.z * scene.normals[vertices.z],
+                                     surface.normal);
+    if (glm::dot(surface.shading_normal, surface.normal) < 0.0f) surface.shading_normal = -surface.shading_normal;
+    const Material& material = scene.materials[scene.triangle_materials[hit.triangle]];
+    surface.albedo = diffuse_albedo(scene, hit.triangle, barycentric);
+    surface.gloss = {material.roughness, material.metallic};
+    surface.emission =
+        material.emissive * vec3(looked_up(scene, material.emissive_texture, hit.triangle, barycentric));
+    return surface;
+}
 
 Segment camera_ray(const Camera& camera, ImageSize size, vec2 pixel, float length_m) {
     const CameraRay ray = ray_through(camera, camera_frame(camera, size), size, pixel);

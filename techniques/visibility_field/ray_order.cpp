@@ -43,35 +43,48 @@ void find_places(std::span<const std::uint32_t> key, std::vector<std::uint32_t>&
     for (std::size_t k = 0; k < key.size(); ++k) place[k] = next[key[k]]++;
 }
 
-}  // namespace
-
-void are_blocked_by_direction(const EmbreeScene& embree, const float* const origin[3], const float* const direction[3],
-                              std::size_t count, SortingRoom& room, std::span<std::uint32_t> blocked) {
-    const std::size_t padded = count + 32;
+/// The rays in the room, sorted; room.place tells where each went.
+PackedOpenRays sorted(const PackedOpenRays& rays, SortingRoom& room) {
+    const std::size_t padded = rays.count + 32;
     if (room.key.size() < padded) {
         room.key.resize(padded);
         room.place.resize(padded);
         for (auto& axis : room.origin) axis.resize(padded);
         for (auto& axis : room.direction) axis.resize(padded);
-        room.blocked.resize(padded / 32 + 1);
     }
-    find_keys(direction, count, room.key);
-    find_places(std::span(room.key).first(count), room.place);
+    find_keys(rays.direction, rays.count, room.key);
+    find_places(std::span(room.key).first(rays.count), room.place);
     for (int axis = 0; axis < 3; ++axis) {
-        for (std::size_t k = 0; k < count; ++k) {
-            room.origin[axis][room.place[k]] = origin[axis][k];
-            room.direction[axis][room.place[k]] = direction[axis][k];
+        for (std::size_t k = 0; k < rays.count; ++k) {
+            room.origin[axis][room.place[k]] = rays.origin[axis][k];
+            room.direction[axis][room.place[k]] = rays.direction[axis][k];
         }
     }
-    const PackedOpenRays sorted{{room.origin[0].data(), room.origin[1].data(), room.origin[2].data()},
-                                {room.direction[0].data(), room.direction[1].data(), room.direction[2].data()},
-                                count};
-    are_blocked(embree, sorted, std::span(room.blocked).first(count / 32 + 1));
+    return {{room.origin[0].data(), room.origin[1].data(), room.origin[2].data()},
+            {room.direction[0].data(), room.direction[1].data(), room.direction[2].data()},
+            rays.count};
+}
+
+}  // namespace
+
+void are_blocked_by_direction(const EmbreeScene& embree, const PackedOpenRays& rays, SortingRoom& room,
+                              std::span<std::uint32_t> blocked) {
+    const PackedOpenRays in_order = sorted(rays, room);
+    room.blocked.resize(std::max(room.blocked.size(), rays.count / 32 + 1));
+    are_blocked(embree, in_order, std::span(room.blocked).first(rays.count / 32 + 1));
     std::ranges::fill(blocked, 0u);
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < rays.count; ++k) {
         const std::uint32_t at = room.place[k];
         blocked[k / 32] |= (room.blocked[at / 32] >> (at % 32) & 1u) << (k % 32);
     }
+}
+
+void find_closest_by_direction(const EmbreeScene& embree, const PackedOpenRays& rays, SortingRoom& room,
+                               std::span<Hit> hits) {
+    const PackedOpenRays in_order = sorted(rays, room);
+    room.hits.resize(std::max(room.hits.size(), rays.count));
+    find_closest(embree, in_order, std::span(room.hits).first(rays.count));
+    for (std::size_t k = 0; k < rays.count; ++k) hits[k] = room.hits[room.place[k]];
 }
 
 }  // namespace sightlines::visibility_field

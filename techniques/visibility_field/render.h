@@ -91,11 +91,12 @@ void add(SampleCounts& sum, const SampleCounts& counts);
 struct EnvironmentResult {
     ImageRgb irradiance;               ///< W/m^2; of glossy surfaces pi times what they reflect
     ImageRgb radiance;                 ///< emission + albedo / pi * irradiance
-    Image<std::uint32_t> rays_traced;  ///< of each pixel
+    Image<std::uint32_t> rays_traced;  ///< of each pixel, second ones too
     Image<std::uint32_t> rays_asked;   ///< samples of each pixel that are above its surface
     ImageScalar shadow;                ///< share of these that count as blocked
     Verdicts verdicts;  ///< bit k: sample k is above the surface and counts as blocked; empty unless asked for
     SampleCounts counts;
+    SampleCounts second_rays;  ///< of indirect light (one_bounce.h): a sample for each surface that was hit
     double seconds = 0.0;
     std::string device;
 };

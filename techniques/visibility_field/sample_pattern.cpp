@@ -22,6 +22,7 @@ SamplePattern make_pattern(int samples, std::uint64_t seed) {
                          "choose 1 to 4,096");
     SamplePattern pattern;
     pattern.samples = samples;
+    pattern.seed = seed;
     const auto count = static_cast<std::uint32_t>(samples);
     for (std::uint32_t k = 0; k < (count + 15) / 16 * 16; ++k) {
         const vec3 direction = cosine_direction(hammersley(std::min(k, count - 1), count));

@@ -11,6 +11,7 @@ namespace sightlines::visibility_field {
 /// Cosine-weighted Hammersley directions about +z, and a tile of blue noise that turns them about the normal.
 struct SamplePattern {
     int samples = 0;
+    std::uint64_t seed = 1;
     std::vector<float> x, y, z;  ///< [samples padded to 16]
     int tile_side = 0;
     std::vector<vec2> turns;   ///< [tile_side * tile_side], cosine and sine of the angle

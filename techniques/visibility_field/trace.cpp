@@ -6,9 +6,11 @@
 #include "shaders/recording.h"  // first: makes the kernels below record
 
 #include "shaders/harmonic_light.h"
+#include "shaders/one_bounce.h"
 #include "shaders/visibility_field.h"
 #include "techniques/rays/open_rays.h"
 #include "techniques/trace_boxes.h"
+#include "techniques/visibility_field/one_bounce.h"
 #include "techniques/visibility_field/trace.h"
 #include "techniques/visibility_field/weighted_samples.h"
 
@@ -50,6 +52,20 @@ void decide(const VisibilityField& field, Culling culling, const SampleRay& aske
                                                   : Fate::traced;
 }
 
+/// How far rays are drawn: across the grid.
+float reach_m(const FieldShape& shape) {
+    return std::max(glm::length(shape.cell_m * vec3(shape.cells_x, shape.cells_y, shape.cells_z)), shape.cell_m);
+}
+
+bool was_asked(Fate fate) { return fate == Fate::traced || fate == Fate::outside_cells; }
+
+/// The cell and the ray, for the view.
+void add_shapes(const FieldShape& shape, const SampleTrace& traced, TraceStep& step) {
+    if (step.paper == "Algorithm 2, line 3")
+        step.geometry.push_back(box_geometry("cell", cell_box(shape, traced.cell)));
+    step.geometry.push_back({"ray", TraceShape::segment, {traced.trace.ray.origin, traced.trace.ray.target}});
+}
+
 }  // namespace
 
 SampleRay sample_ray(const EnvironmentRequest& request, std::size_t pixel, int sample) {
@@ -75,26 +91,45 @@ SampleTrace trace_sample(const VisibilityField& field, const EmbreeScene& embree
                          const SampleRay& ray) {
     SampleTrace traced;
     const vec3 start = lifted_off(embree, ray.position, ray.normal);
-    const float reach_m =
-        std::max(glm::length(field.shape.cell_m * vec3(field.shape.cells_x, field.shape.cells_y, field.shape.cells_z)),
-                 field.shape.cell_m);
-    traced.trace.ray = {start, start + reach_m * ray.direction};
+    traced.trace.ray = {start, start + reach_m(field.shape) * ray.direction};
     traced.blocked_in_truth = is_blocked(embree, start, ray.direction);
     {
         kernel::Recording recording;
         decide(field, culling, ray, traced);
-        const bool was_asked = traced.fate == Fate::traced || traced.fate == Fate::outside_cells;
-        traced.trace.blocked = was_asked ? traced.blocked_in_truth : traced.fate != Fate::taken_for_open;
+        traced.trace.blocked = was_asked(traced.fate) ? traced.blocked_in_truth : traced.fate != Fate::taken_for_open;
         const bool subtracts = culling == Culling::label && traced.label == 0 && traced.cell_index != kernel::no_cell;
         traced.adds = kernel::sample_adds(subtracts, traced.trace.blocked, ray.share);
         traced.trace.steps = std::move(recording.steps);
     }
-    for (TraceStep& step : traced.trace.steps) {
-        if (step.paper == "Algorithm 2, line 3")
-            step.geometry.push_back(box_geometry("cell", cell_box(field.shape, traced.cell)));
-        step.geometry.push_back({"ray", TraceShape::segment, {traced.trace.ray.origin, traced.trace.ray.target}});
-    }
+    for (TraceStep& step : traced.trace.steps) add_shapes(field.shape, traced, step);
     return traced;
+}
+
+void add_second_ray(const VisibilityField& field, const EmbreeScene& embree, const Scene& scene,
+                    const EnvironmentRequest& request, std::uint64_t seed, const SampleRay& ray, SampleTrace& traced) {
+    const vec3 origin = traced.trace.ray.origin;
+    const std::optional<Hit> hit =
+        closest_hit(embree, origin, ray.direction, std::numeric_limits<float>::infinity());
+    if (!hit) return;
+    const SecondRay second = second_ray(scene, *hit, origin, ray.direction, seed);
+    const SampleRay asked{second.surface.position, second.surface.normal, second.direction, vec3(0.0f)};
+    const vec3 start = lifted_off(embree, asked.position, asked.normal);
+    SampleTrace way;
+    way.trace.ray = {start, start + reach_m(field.shape) * asked.direction};
+    {
+        kernel::Recording recording;
+        kernel::second_direction(second.surface.shading_normal, second.about_up);
+        decide(field, culling_used(request), asked, way);
+        const bool blocked = was_asked(way.fate) ? is_blocked(embree, start, asked.direction)
+                                                 : way.fate != Fate::taken_for_open;
+        kernel::sent_back(second.surface.albedo, light_from(request, asked.direction), blocked);
+        way.trace.steps = std::move(recording.steps);
+    }
+    for (TraceStep& step : way.trace.steps) {
+        add_shapes(field.shape, way, step);
+        step.geometry.push_back({"first ray", TraceShape::segment, {origin, asked.position}});
+        traced.trace.steps.push_back(std::move(step));
+    }
 }
 
 SampleTrace trace_sample(const VisibilityField& field, const EmbreeScene& embree, const EnvironmentRequest& request,

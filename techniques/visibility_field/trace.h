@@ -48,6 +48,11 @@ SampleTrace trace_sample(const VisibilityField& field, const EmbreeScene& embree
 SampleTrace trace_sample(const VisibilityField& field, const EmbreeScene& embree, const EnvironmentRequest& request,
                          int x, int y, int sample);
 
+/// Of a sample that is blocked: what it hit, the ray that lights that and what of it comes back, as further steps.
+/// Nothing where it hit nothing. `request`: its light and culling.
+void add_second_ray(const VisibilityField& field, const EmbreeScene& embree, const Scene& scene,
+                    const EnvironmentRequest& request, std::uint64_t seed, const SampleRay& ray, SampleTrace& traced);
+
 /// For a ray that was discarded wrongly: the point samples of the cell that might have kept it.
 struct NearestSamples {
     std::size_t points = 0;  ///< in the cell

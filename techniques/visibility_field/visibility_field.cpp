@@ -10,6 +10,7 @@
 #include "techniques/base/parallel.h"
 #include "techniques/visibility_field/denoise.h"
 #include "techniques/visibility_field/map_sampling.h"
+#include "techniques/visibility_field/one_bounce.h"
 #include "techniques/visibility_field/weighted_samples.h"
 
 namespace sightlines::visibility_field {
@@ -25,8 +26,9 @@ constexpr std::array<std::string_view, 2> ray_orders{"pixel", "direction"};
 constexpr std::array<std::string_view, 2> surface_kinds{"diffuse", "glossy"};
 constexpr std::array<std::string_view, 4> samplings{"cosine", "brdf", "map", "both"};
 constexpr std::array<std::string_view, 2> light_sources{"harmonics", "map"};
+constexpr std::array<std::string_view, 2> indirect_ways{"off", "once"};
 
-constexpr std::array<Parameter, 18> parameters{{
+constexpr std::array<Parameter, 19> parameters{{
     {"cell_size", "Cell size", "m", ParameterKind::real, ParameterAffects::structure, 0.01, 1000, 0.5, 0.5,
      "Side of a cell of the grid."},
     {"mask_size", "Mask size", "texels", ParameterKind::integer, ParameterAffects::structure, 8, 64, 18, 18,
@@ -76,6 +78,10 @@ constexpr std::array<Parameter, 18> parameters{{
      samplings},
     {"light_from", "Light from", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 0, 0,
      "The surroundings as harmonics of order 3, or the map itself with all its contrasts.", light_sources},
+    {"indirect", "Indirect light", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 0, 0,
+     "Light of the surroundings by way of one other surface: what a blocked sample hits is lit by a ray of its own, which "
+     "the masks of the cell that is hit cull.",
+     indirect_ways},
     {"denoise", "Denoising", "passes", ParameterKind::integer, ParameterAffects::picture, 0, most_denoising_passes, 0,
      0, "Passes of a filter that takes noise out of the irradiance and keeps edges; 0: none."},
     {"ray_order", "Order of rays", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 1, 0,
@@ -158,19 +164,25 @@ PatternPointer pattern_of(const RenderRequest& request) {
                                       : new_pattern(request.parameters, request.seed);
 }
 
+/// The light and which rays are traced.
+EnvironmentRequest light_request(const ParameterValues& chosen, const EnvironmentLight& environment) {
+    EnvironmentRequest asked;
+    asked.light = environment.harmonics;
+    if (value_of(chosen, "light_from") != 0.0) asked.map = &environment;
+    asked.culling = culling_of(chosen);
+    return asked;
+}
+
 EnvironmentRequest environment_request(const RenderRequest& request, const SamplePattern& pattern) {
     assert(request.environment != nullptr);
-    EnvironmentRequest asked;
+    EnvironmentRequest asked = light_request(request.parameters, *request.environment);
     asked.surfaces = request.surfaces;
     asked.pattern = &pattern;
-    asked.light = request.environment->harmonics;
-    asked.culling = culling_of(request.parameters);
     asked.unshadowed = choice_of<Unshadowed>(request.parameters, "unshadowed");
     asked.order = choice_of<RayOrder>(request.parameters, "ray_order");
     asked.sampling = choice_of<Sampling>(request.parameters, "sampling");
     asked.glossy = value_of(request.parameters, "surface") != 0.0;
     asked.roughness = static_cast<float>(value_of(request.parameters, "roughness"));
-    if (value_of(request.parameters, "light_from") != 0.0) asked.map = request.environment;
     asked.threads = request.threads;
     asked.reverse_tiles = request.reverse_tiles;
     asked.keep_verdicts = request.keep_verdicts;
@@ -265,11 +277,27 @@ RenderResult render_samples(const RenderRequest& request, const DenseField* dens
     denoise_picture(asked, static_cast<int>(value_of(request.parameters, "denoise")), made);
     take_over(made, surfaces, {0, 0, surfaces.size.width, surfaces.size.height}, result);
     result.verdicts = std::move(made.verdicts);
-    result.rays = made.counts.samples - made.counts.below;
-    result.rays_traced = made.counts.traced;
+    const SampleCounts& second = made.second_rays;
+    result.rays = made.counts.samples - made.counts.below + second.samples - second.below;
+    result.rays_traced = made.counts.traced + second.traced;
     result.seconds = made.seconds;
     result.device = made.device;
     return result;
+}
+
+/// The same with indirect light where the request asks for it.
+Renderer with_indirect(const VisibilityField* field, const EmbreeScene& embree, const RenderRequest& request,
+                       Progress& progress, Renderer make) {
+    if (value_of(request.parameters, "indirect") == 0.0) return make;
+    assert(request.scene != nullptr);
+    return [=, &embree, &progress, scene = request.scene](const EnvironmentRequest& asked) {
+        EnvironmentRequest keeping = asked;
+        keeping.keep_verdicts = true;
+        EnvironmentResult made = make(keeping);
+        add_one_bounce(field, embree, *scene, asked, made, progress);
+        if (!asked.keep_verdicts) made.verdicts = {};
+        return made;
+    };
 }
 
 RenderResult render(const Structure& structure, const RenderRequest& request, Progress& progress) {
@@ -277,22 +305,26 @@ RenderResult render(const Structure& structure, const RenderRequest& request, Pr
     if (request.backend == Backend::vulkan) {
         const std::shared_ptr<const FieldOnDevice> device =
             built.on_device ? built.on_device : give_to_vulkan(&built.field, *built.embree, request.threads, progress);
-        return render_samples(request, nullptr, [&](const EnvironmentRequest& asked) {
-            return render_on_vulkan(*device, asked, progress);
-        });
+        return render_samples(request, nullptr,
+                              with_indirect(&built.field, *built.embree, request, progress,
+                                            [&](const EnvironmentRequest& asked) {
+                                                return render_on_vulkan(*device, asked, progress);
+                                            }));
     }
-    RenderResult result =
-        render_samples(request, built.dense ? &*built.dense : nullptr, [&](const EnvironmentRequest& asked) {
+    RenderResult result = render_samples(
+        request, built.dense ? &*built.dense : nullptr,
+        with_indirect(&built.field, *built.embree, request, progress, [&](const EnvironmentRequest& asked) {
             return render_environment(&built.field, *built.embree, asked, progress);
-        });
+        }));
     result.device = cpu_device(request.threads);
     return result;
 }
 
 RenderResult reference(const EmbreeScene& embree, const RenderRequest& request, Progress& progress) {
-    RenderResult result = render_samples(request, nullptr, [&](const EnvironmentRequest& asked) {
-        return render_environment(nullptr, embree, asked, progress);
-    });
+    RenderResult result = render_samples(
+        request, nullptr, with_indirect(nullptr, embree, request, progress, [&](const EnvironmentRequest& asked) {
+            return render_environment(nullptr, embree, asked, progress);
+        }));
     result.device = cpu_device(request.threads);
     return result;
 }
@@ -349,10 +381,12 @@ void add_nearest(const BuiltField& built, const SampleTrace& traced, TraceStep& 
 
 Trace trace(const Structure& structure, const TraceRequest& request) {
     const BuiltField& built = built_field(structure);
-    SampleTrace traced =
-        trace_sample(built.field, *built.embree, culling_of(request.parameters),
-                     {request.position, request.normal, -request.light.direction, request.light.intensity});
+    const SampleRay ray{request.position, request.normal, -request.light.direction, request.light.intensity};
+    SampleTrace traced = trace_sample(built.field, *built.embree, culling_of(request.parameters), ray);
     if (traced.is_wrong() && !traced.trace.steps.empty()) add_nearest(built, traced, traced.trace.steps.back());
+    if (value_of(request.parameters, "indirect") != 0.0 && traced.trace.blocked && traced.fate != Fate::below_surface)
+        add_second_ray(built.field, *built.embree, *request.scene,
+                       light_request(request.parameters, *request.environment), request.seed, ray, traced);
     return std::move(traced.trace);
 }
 

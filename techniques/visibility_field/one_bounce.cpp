@@ -1,0 +1,236 @@
+#include "techniques/visibility_field/one_bounce.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "shaders/one_bounce.h"
+#include "techniques/base/hammersley.h"
+#include "techniques/base/random.h"
+#include "techniques/rays/open_rays.h"
+#include "techniques/visibility_field/decide.h"
+#include "techniques/visibility_field/picture_tiles.h"
+#include "techniques/visibility_field/ray_order.h"
+#include "techniques/visibility_field/weighted_samples.h"
+
+namespace sightlines::visibility_field {
+namespace {
+
+namespace kernel = scalar_kernel;
+
+constexpr std::uint64_t second_ray_seed = 0x626f756e6365u;
+constexpr std::size_t most_waiting = 32768;  ///< rays that are asked together
+
+/// Rays side by side, with room for a whole last packet.
+struct RayList {
+    std::vector<float> origin[3], direction[3];
+    std::size_t count = 0;
+
+    RayList() {
+        for (auto& axis : origin) axis.resize(most_waiting + 16);
+        for (auto& axis : direction) axis.resize(most_waiting + 16);
+    }
+    void add(vec3 from, vec3 along) {
+        for (int axis = 0; axis < 3; ++axis) {
+            origin[axis][count] = from[axis];
+            direction[axis][count] = along[axis];
+        }
+        ++count;
+    }
+    PackedOpenRays packed() const {
+        return {{origin[0].data(), origin[1].data(), origin[2].data()},
+                {direction[0].data(), direction[1].data(), direction[2].data()},
+                count};
+    }
+    vec3 direction_of(std::size_t ray) const { return {direction[0][ray], direction[1][ray], direction[2][ray]}; }
+    vec3 origin_of(std::size_t ray) const { return {origin[0][ray], origin[1][ray], origin[2][ray]}; }
+};
+
+/// A sample that met something: its pixel, and what radiance from there adds to the pixel's irradiance.
+struct Blocked {
+    std::uint32_t pixel = 0;
+    vec3 weight{0.0f};
+};
+
+/// A second ray that waits for Embree: its sample's pixel, and what that gains where nothing is in the way.
+struct Waiting {
+    std::uint32_t pixel = 0;
+    vec3 adds{0.0f};
+};
+
+struct Picture {
+    const VisibilityField* field;
+    const EmbreeScene& embree;
+    const Scene& scene;
+    const EnvironmentRequest& request;
+    EnvironmentRequest white;  ///< the same samples under even light: what each weighs
+    EnvironmentResult& result;
+    ImageRgb& gained;  ///< irradiance
+};
+
+struct TileRoom {
+    RayList first, second;
+    std::vector<Blocked> blocked{};
+    std::vector<Waiting> waiting{};
+    std::vector<Hit> hits = std::vector<Hit>(most_waiting);
+    std::vector<std::uint32_t> answers = std::vector<std::uint32_t>(most_waiting / 32 + 1);
+    SortingRoom sorting{};
+    SampleCounts counts{};
+};
+
+/// A second ray's answer where the field knows it.
+kernel::Decision decide_second(const VisibilityField* field, const EnvironmentRequest& request, const SecondRay& ray,
+                               bool& outside) {
+    const bool above = kernel::leaves_surface(ray.surface.normal, ray.direction);
+    if (field == nullptr) return kernel::decide_without_masks(above);
+    const kernel::FieldCell cell =
+        kernel::locate_cell(field->shape, {field->bricks.data()}, ray.surface.position, ray.surface.normal);
+    outside = cell.index == kernel::no_cell;
+    return outside ? kernel::decide_without_masks(above)
+                   : decide(*field, culling_used(request), cell, ray.direction, above);
+}
+
+void answer_second(const Picture& picture, TileRoom& room) {
+    const std::span answers(room.answers);
+    if (picture.request.order == RayOrder::direction)
+        are_blocked_by_direction(picture.embree, room.second.packed(), room.sorting, answers);
+    else
+        are_blocked(picture.embree, room.second.packed(), answers);
+    for (std::size_t ray = 0; ray < room.second.count; ++ray) {
+        const bool blocked = (answers[ray / 32] >> (ray % 32) & 1u) != 0;
+        room.counts.traced_blocked += blocked ? 1 : 0;
+        if (!blocked) picture.gained.pixels[room.waiting[ray].pixel] += room.waiting[ray].adds;
+    }
+    room.second.count = 0;
+    room.waiting.clear();
+}
+
+/// Lights what a sample hit, or has its second ray wait.
+void light_hit(const Picture& picture, const Blocked& from, const SecondRay& ray, TileRoom& room) {
+    ++room.counts.samples;
+    bool outside = false;
+    const kernel::Decision decision = decide_second(picture.field, picture.request, ray, outside);
+    if (!decision.trace) {
+        if (!kernel::leaves_surface(ray.surface.normal, ray.direction)) ++room.counts.below;
+        if (!decision.open) return;
+    }
+    const vec3 adds =
+        from.weight * kernel::sent_back(ray.surface.albedo, light_from(picture.request, ray.direction), false);
+    if (decision.open) {
+        picture.gained.pixels[from.pixel] += adds;
+        return;
+    }
+    ++room.counts.traced;
+    if (outside) ++room.counts.outside;
+    ++picture.result.rays_traced.pixels[from.pixel];
+    room.second.add(lifted_off(picture.embree, ray.surface.position, ray.surface.normal), ray.direction);
+    room.waiting.push_back({from.pixel, adds});
+}
+
+/// Finds what the samples that wait have hit, and lights it.
+void answer_first(const Picture& picture, TileRoom& room) {
+    const PackedOpenRays rays = room.first.packed();
+    if (picture.request.order == RayOrder::direction)
+        find_closest_by_direction(picture.embree, rays, room.sorting, room.hits);
+    else
+        find_closest(picture.embree, rays, room.hits);
+    for (std::size_t k = 0; k < room.first.count; ++k) {
+        if (room.hits[k].triangle == no_triangle) continue;  // blocked by the masks alone
+        light_hit(picture, room.blocked[k],
+                  second_ray(picture.scene, room.hits[k], room.first.origin_of(k), room.first.direction_of(k),
+                             picture.request.pattern->seed),
+                  room);
+    }
+    answer_second(picture, room);
+    room.first.count = 0;
+    room.blocked.clear();
+}
+
+/// A pixel's samples, and what even light of radiance 1 from each would add.
+std::vector<PixelSample> weighed_samples(const Picture& picture, std::size_t pixel) {
+    if (is_weighted(picture.request)) return weighted_samples(picture.white, pixel);
+    const EnvironmentRequest& request = picture.request;
+    const SurfaceBuffer& surfaces = *request.surfaces;
+    const SamplePattern& pattern = *request.pattern;
+    const auto width = static_cast<std::size_t>(surfaces.size.width);
+    const std::size_t tile = pattern.tile_place(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
+    const kernel::HemisphereFrame frame =
+        kernel::frame_about(surfaces.shading_normal[pixel], pattern.turns[tile].x, pattern.turns[tile].y);
+    std::vector<PixelSample> samples(static_cast<std::size_t>(pattern.samples));
+    for (std::size_t k = 0; k < samples.size(); ++k)
+        samples[k] = {kernel::direction_in(frame, pattern.x[k], pattern.y[k], pattern.z[k]),
+                      vec3(std::numbers::pi_v<float> / static_cast<float>(pattern.samples))};
+    return samples;
+}
+
+void follow_pixel(const Picture& picture, int x, int y, TileRoom& room) {
+    const SurfaceBuffer& surfaces = *picture.request.surfaces;
+    const auto pixel = static_cast<std::uint32_t>(y * surfaces.size.width + x);
+    const Verdicts& verdicts = picture.result.verdicts;
+    if (surfaces.triangle[pixel] == no_triangle) return;
+    const std::uint32_t* const words = &verdicts.words[std::size_t{pixel} * verdicts.words_per_pixel];
+    if (std::all_of(words, words + verdicts.words_per_pixel, [](std::uint32_t word) { return word == 0; })) return;
+    const std::vector<PixelSample> samples = weighed_samples(picture, pixel);
+    const vec3 start = lifted_off(picture.embree, surfaces.position[pixel], surfaces.normal[pixel]);
+    for (std::uint32_t word = 0; word < verdicts.words_per_pixel; ++word) {
+        for (std::uint32_t bits = words[word]; bits != 0; bits &= bits - 1) {
+            const auto sample = static_cast<std::size_t>(32 * word) + static_cast<std::size_t>(std::countr_zero(bits));
+            room.first.add(start, samples[sample].direction);
+            room.blocked.push_back({pixel, samples[sample].adds});
+            if (room.first.count == most_waiting) answer_first(picture, room);
+        }
+    }
+}
+
+SampleCounts follow_tile(const Picture& picture, int left, int top) {
+    const SurfaceBuffer& surfaces = *picture.request.surfaces;
+    TileRoom room;
+    for_pixels_of_tile(surfaces.size, left, top, [&](int x, int y) { follow_pixel(picture, x, y, room); });
+    answer_first(picture, room);
+    for_pixels_of_tile(surfaces.size, left, top, [&](int x, int y) {
+        const auto pixel = static_cast<std::size_t>(y * surfaces.size.width + x);
+        if (surfaces.triangle[pixel] == no_triangle) return;
+        picture.result.irradiance.pixels[pixel] += picture.gained.pixels[pixel];
+        picture.result.radiance.pixels[pixel] =
+            reflected_radiance(picture.request, pixel, picture.result.irradiance.pixels[pixel]);
+    });
+    return room.counts;
+}
+
+}  // namespace
+
+SecondRay second_ray(const Scene& scene, const Hit& hit, vec3 origin, vec3 direction, std::uint64_t seed) {
+    std::uint32_t stream = hit.triangle;
+    for (const vec3 each : {origin, direction})
+        for (int axis = 0; axis < 3; ++axis) stream = hash_u32(stream ^ std::bit_cast<std::uint32_t>(each[axis]));
+    SecondRay ray;
+    ray.surface = surface_at(scene, hit, direction);
+    ray.about_up = cosine_direction(
+        {random_unit(seed ^ second_ray_seed, stream, 0), random_unit(seed ^ second_ray_seed, stream, 1)});
+    ray.direction = kernel::second_direction(ray.surface.shading_normal, ray.about_up);
+    return ray;
+}
+
+vec3 light_from(const EnvironmentRequest& request, vec3 direction) {
+    return request.map != nullptr ? radiance_from(*request.map, direction) : radiance(request.light, direction);
+}
+
+void add_one_bounce(const VisibilityField* field, const EmbreeScene& embree, const Scene& scene,
+                    const EnvironmentRequest& request, EnvironmentResult& result, Progress& progress) {
+    ImageRgb gained(request.surfaces->size);
+    EnvironmentRequest white = request;
+    white.map = nullptr;
+    white.light = {};
+    white.light.coefficient[0] = vec3(2.0f * std::sqrt(std::numbers::pi_v<float>));  // over Y00: 1 from everywhere
+    const Picture picture{field, embree, scene, request, white, result, gained};
+    EnvironmentRequest watched = request;
+    if (request.on_region)
+        watched.on_region = [&](const EnvironmentResult&, PixelRect changed) { request.on_region(result, changed); };
+    EnvironmentResult second;
+    ask_tiles(watched, second, progress, [&](int left, int top) { return follow_tile(picture, left, top); });
+    result.second_rays = second.counts;
+    result.seconds += second.seconds;
+}
+
+}  // namespace sightlines::visibility_field
