@@ -116,7 +116,8 @@ FieldMeasurement measure_field(FieldMeasuring& m, const FieldScene& scene, const
     request.roughness = way.roughness;
     if (request.glossy) request.sampling = Sampling::brdf;
     request.threads = m.results.threads();
-    return measure(field, *scene.embree, request, m.run.repetitions, m.progress);
+    return measure(field, *scene.embree, request, m.run.repetitions, m.progress,
+                   way.indirect ? &scene.scene->value : nullptr);
 }
 
 void add_field_figure(FieldMeasuring& m, const FieldScene& scene, const FieldWay& way, const FieldFigure& figure,

@@ -31,6 +31,7 @@ struct FieldWay {
     visibility_field::RayOrder order = visibility_field::RayOrder::direction;
     visibility_field::Culling culling = visibility_field::Culling::label;
     float roughness = 0.0f;  ///< more than 0: surfaces are glossy, and samples drawn by what they reflect
+    bool indirect = false;   ///< surfaces light each other once
 };
 
 /// Samples a pixel of the table with this number, where it does not vary them: the paper's, few with --quick.

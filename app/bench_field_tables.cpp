@@ -64,6 +64,16 @@ void add_empty_cells_note(MeasuredTable& table) {
         "In cells that no point fell into every ray is traced: few points at random cost time there.");
 }
 
+/// As the paper has its exterior.
+FieldWay as_the_bistro(FieldWay way, const BenchRun& run) {
+    way.suffix = " (as the bistro)";
+    way.bake.cell_m = 1.0f;
+    if (run.quick) return way;
+    way.bake.points = 10'000'000;
+    way.bake.rays = 128;
+    return way;
+}
+
 /// Bakes, and adds everything about a picture by that field.
 void add_picture(FieldMeasuring& m, const FieldScene& scene, const FieldWay& way, int samples) {
     say(m.run, m.table, scene.label + way.suffix);
@@ -97,12 +107,14 @@ void field_pictures(MeasuredTable& table, BenchRun& run, Results& results, Progr
         const std::vector<FieldWay> ways = field_ways(run, results);
         for (const FieldWay& way : {ways[0], with_finer_masks(ways[0]), ways[1]})
             add_picture(m, *scene, way, field_samples(run, 5));
+        if (scene->label == "street") add_picture(m, *scene, as_the_bistro(ways[0], run), run.quick ? 32 : 64);
     }
     finish_field_table(m, {time_without, time_with, speed_up}, "");
     add_rmse_note(table);
     table.notes.emplace_back(
         "The paper: 128 samples a pixel, cells of 50 cm; the bistro, whose time is Figure 1's: 64 samples, cells of "
-        "100 cm.");
+        "100 cm, 10 million points with 128 rays each, as the street has it, too, where it says so. Of the bistro's "
+        "speed-up the text says only that it is less than 1.79, that of Figure 10.");
 }
 
 void field_by_points(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t scenes_when_quick = 2;
 
-constexpr std::array<PaperTable, 21> all_tables{{
+constexpr std::array<PaperTable, 22> all_tables{{
     {"voxel-rows/table1", "errors of voxel rows and of imperfect shadow maps", 1, ChartKind::dots, "", false,
      tables::errors_by_scene},
     {"voxel-rows/table2", "errors by the number of lights", 2, ChartKind::curves, "lights", false,
@@ -56,6 +56,8 @@ constexpr std::array<PaperTable, 21> all_tables{{
      tables::field_glossy, &xu_2022_paper},
     {"visibility-field/memory", "memory of the field, packed and as in the paper", 0, ChartKind::dots, "cm", true,
      tables::field_memory, &xu_2022_paper},
+    {"visibility-field/indirect", "times with indirect light, with a field and without", -1, ChartKind::dots, "", true,
+     tables::field_indirect, &xu_2022_paper},
     {"visibility-field/moving", "baking a moment of scenes that move", -1, ChartKind::dots, "", true,
      tables::field_moments, &xu_2022_paper},
 }};

@@ -5,6 +5,7 @@
 
 #include "techniques/scene/environment.h"
 #include "techniques/scene/harmonics.h"
+#include "techniques/scene/map_sampling.h"
 
 namespace sightlines {
 
@@ -13,9 +14,10 @@ struct EnvironmentLight {
     std::shared_ptr<const Environment> map;  ///< as it was read or made
     float turn_deg = 0.0f;                   ///< about +Y, from -Z towards +X
     Harmonics harmonics;                     ///< turned
+    MapDistribution distribution;            ///< turned
 };
 
-/// Projects the map.
+/// Projects the map, and makes the tables by which it is drawn.
 EnvironmentLight make_environment_light(Environment map);
 
 /// The same light, its map turned by so much instead of as before.

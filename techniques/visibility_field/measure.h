@@ -12,13 +12,15 @@ struct FieldMeasurement {
     double seconds_sampling = 0.0;  ///< of seconds_with: making, looking up and sorting out the samples; 0
                                     ///< where these have weights of their own
     SampleCounts without, with;
-    IrradianceError error;  ///< of the picture with the field
+    SampleCounts second_rays;  ///< of `with`, where there is indirect light
+    IrradianceError error;     ///< of the picture with the field
 
     double speed_up() const { return seconds_with > 0.0 ? seconds_without / seconds_with : 0.0; }
 };
 
-/// The picture is made `repetitions` times each way (at least once), after one round that does not count.
+/// The picture is made `repetitions` times each way (at least once), after one round that does not count. `indirect`:
+/// where not null, the scene, whose surfaces light each other once (one_bounce.h).
 FieldMeasurement measure(const VisibilityField& field, const EmbreeScene& embree, const EnvironmentRequest& request,
-                         int repetitions, Progress& progress);
+                         int repetitions, Progress& progress, const Scene* indirect = nullptr);
 
 }  // namespace sightlines::visibility_field

@@ -64,7 +64,7 @@ struct Picture {
     const EmbreeScene& embree;
     const Scene& scene;
     const EnvironmentRequest& request;
-    EnvironmentRequest white;  ///< the same samples under even light: what each weighs
+    const EnvironmentRequest& white;  ///< the same samples under even light: what each weighs
     EnvironmentResult& result;
     ImageRgb& gained;  ///< irradiance
 };
@@ -115,8 +115,7 @@ void light_hit(const Picture& picture, const Blocked& from, const SecondRay& ray
         if (!kernel::leaves_surface(ray.surface.normal, ray.direction)) ++room.counts.below;
         if (!decision.open) return;
     }
-    const vec3 adds =
-        from.weight * kernel::sent_back(ray.surface.albedo, light_from(picture.request, ray.direction), false);
+    const vec3 adds = from.weight * kernel::sent_back(ray.surface.albedo, ray.light, false);
     if (decision.open) {
         picture.gained.pixels[from.pixel] += adds;
         return;
@@ -138,8 +137,8 @@ void answer_first(const Picture& picture, TileRoom& room) {
     for (std::size_t k = 0; k < room.first.count; ++k) {
         if (room.hits[k].triangle == no_triangle) continue;  // blocked by the masks alone
         light_hit(picture, room.blocked[k],
-                  second_ray(picture.scene, room.hits[k], room.first.origin_of(k), room.first.direction_of(k),
-                             picture.request.pattern->seed),
+                  second_ray(picture.scene, picture.request, room.hits[k], room.first.origin_of(k),
+                             room.first.direction_of(k), picture.request.pattern->seed),
                   room);
     }
     answer_second(picture, room);
@@ -198,39 +197,57 @@ SampleCounts follow_tile(const Picture& picture, int left, int top) {
     return room.counts;
 }
 
-}  // namespace
-
-SecondRay second_ray(const Scene& scene, const Hit& hit, vec3 origin, vec3 direction, std::uint64_t seed) {
-    std::uint32_t stream = hit.triangle;
-    for (const vec3 each : {origin, direction})
-        for (int axis = 0; axis < 3; ++axis) stream = hash_u32(stream ^ std::bit_cast<std::uint32_t>(each[axis]));
-    SecondRay ray;
-    ray.surface = surface_at(scene, hit, direction);
-    ray.about_up = cosine_direction(
-        {random_unit(seed ^ second_ray_seed, stream, 0), random_unit(seed ^ second_ray_seed, stream, 1)});
-    ray.direction = kernel::second_direction(ray.surface.shading_normal, ray.about_up);
-    return ray;
-}
-
+/// The radiance of the request's light from a direction.
 vec3 light_from(const EnvironmentRequest& request, vec3 direction) {
     return request.map != nullptr ? radiance_from(*request.map, direction) : radiance(request.light, direction);
 }
 
-void add_one_bounce(const VisibilityField* field, const EmbreeScene& embree, const Scene& scene,
-                    const EnvironmentRequest& request, EnvironmentResult& result, Progress& progress) {
-    ImageRgb gained(request.surfaces->size);
+}  // namespace
+
+SecondRay second_ray(const Scene& scene, const EnvironmentRequest& request, const Hit& hit, vec3 origin, vec3 direction,
+                     std::uint64_t seed) {
+    std::uint32_t stream = hit.triangle;
+    for (const vec3 each : {origin, direction})
+        for (int axis = 0; axis < 3; ++axis) stream = hash_u32(stream ^ std::bit_cast<std::uint32_t>(each[axis]));
+    const auto number = [&](std::uint32_t which) { return random_unit(seed ^ second_ray_seed, stream, which); };
+    SecondRay ray;
+    ray.surface = surface_at(scene, hit, direction);
+    const vec3 up = ray.surface.shading_normal;
+    ray.about_up = cosine_direction({number(0), number(1)});
+    const MapDistribution* const map = request.distribution;
+    if (map != nullptr && number(2) < 0.5f) {
+        const kernel::HemisphereFrame frame = kernel::frame_about(up, 1.0f, 0.0f);
+        ray.about_up =
+            drawn_direction(*map, {number(0), number(1)}) * mat3(frame.tangent, frame.bitangent, frame.normal);
+    }
+    ray.direction = kernel::second_direction(up, ray.about_up);
+    const float density = std::max(glm::dot(up, ray.direction), 0.0f) * std::numbers::inv_pi_v<float>;
+    const float drawn = map != nullptr ? 0.5f * (density + drawn_density(*map, ray.direction)) : density;
+    ray.light = drawn > 0.0f ? density / drawn * light_from(request, ray.direction) : vec3(0.0f);
+    return ray;
+}
+
+EnvironmentResult with_one_bounce(const VisibilityField* field, const EmbreeScene& embree, const Scene& scene,
+                                  const EnvironmentRequest& request,
+                                  const std::function<EnvironmentResult(const EnvironmentRequest&)>& make,
+                                  Progress& progress) {
+    EnvironmentRequest asked = request;
+    asked.keep_verdicts = true;
+    EnvironmentResult result = make(asked);
+    if (request.on_region)
+        asked.on_region = [&](const EnvironmentResult&, PixelRect changed) { request.on_region(result, changed); };
     EnvironmentRequest white = request;
     white.map = nullptr;
     white.light = {};
     white.light.coefficient[0] = vec3(2.0f * std::sqrt(std::numbers::pi_v<float>));  // over Y00: 1 from everywhere
+    ImageRgb gained(request.surfaces->size);
     const Picture picture{field, embree, scene, request, white, result, gained};
-    EnvironmentRequest watched = request;
-    if (request.on_region)
-        watched.on_region = [&](const EnvironmentResult&, PixelRect changed) { request.on_region(result, changed); };
     EnvironmentResult second;
-    ask_tiles(watched, second, progress, [&](int left, int top) { return follow_tile(picture, left, top); });
+    ask_tiles(asked, second, progress, [&](int left, int top) { return follow_tile(picture, left, top); });
     result.second_rays = second.counts;
     result.seconds += second.seconds;
+    if (!request.keep_verdicts) result.verdicts = {};
+    return result;
 }
 
 }  // namespace sightlines::visibility_field

@@ -39,7 +39,6 @@ enum class RayOrder { pixel, direction };
 /// bright. `both`: half of them so, half by the surface.
 enum class Sampling { cosine, brdf, map, both };
 
-struct MapDistribution;
 struct EnvironmentResult;
 
 struct EnvironmentRequest {

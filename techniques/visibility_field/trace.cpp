@@ -60,10 +60,10 @@ float reach_m(const FieldShape& shape) {
 bool was_asked(Fate fate) { return fate == Fate::traced || fate == Fate::outside_cells; }
 
 /// The cell and the ray, for the view.
-void add_shapes(const FieldShape& shape, const SampleTrace& traced, TraceStep& step) {
+void add_shapes(const FieldShape& shape, const SampleTrace& traced, const char* ray_name, TraceStep& step) {
     if (step.paper == "Algorithm 2, line 3")
         step.geometry.push_back(box_geometry("cell", cell_box(shape, traced.cell)));
-    step.geometry.push_back({"ray", TraceShape::segment, {traced.trace.ray.origin, traced.trace.ray.target}});
+    step.geometry.push_back({ray_name, TraceShape::segment, {traced.trace.ray.origin, traced.trace.ray.target}});
 }
 
 }  // namespace
@@ -101,33 +101,32 @@ SampleTrace trace_sample(const VisibilityField& field, const EmbreeScene& embree
         traced.adds = kernel::sample_adds(subtracts, traced.trace.blocked, ray.share);
         traced.trace.steps = std::move(recording.steps);
     }
-    for (TraceStep& step : traced.trace.steps) add_shapes(field.shape, traced, step);
+    for (TraceStep& step : traced.trace.steps) add_shapes(field.shape, traced, "ray", step);
     return traced;
 }
 
 void add_second_ray(const VisibilityField& field, const EmbreeScene& embree, const Scene& scene,
                     const EnvironmentRequest& request, std::uint64_t seed, const SampleRay& ray, SampleTrace& traced) {
     const vec3 origin = traced.trace.ray.origin;
-    const std::optional<Hit> hit =
-        closest_hit(embree, origin, ray.direction, std::numeric_limits<float>::infinity());
+    const std::optional<Hit> hit = closest_hit(embree, origin, ray.direction, std::numeric_limits<float>::infinity());
     if (!hit) return;
-    const SecondRay second = second_ray(scene, *hit, origin, ray.direction, seed);
+    const SecondRay second = second_ray(scene, request, *hit, origin, ray.direction, seed);
     const SampleRay asked{second.surface.position, second.surface.normal, second.direction, vec3(0.0f)};
     const vec3 start = lifted_off(embree, asked.position, asked.normal);
+    const std::optional<Hit> in_the_way = closest_hit(embree, start, asked.direction, reach_m(field.shape));
     SampleTrace way;
-    way.trace.ray = {start, start + reach_m(field.shape) * asked.direction};
+    way.trace.ray = {start, start + (in_the_way ? in_the_way->distance_m : reach_m(field.shape)) * asked.direction};
     {
         kernel::Recording recording;
         kernel::second_direction(second.surface.shading_normal, second.about_up);
         decide(field, culling_used(request), asked, way);
-        const bool blocked = was_asked(way.fate) ? is_blocked(embree, start, asked.direction)
-                                                 : way.fate != Fate::taken_for_open;
-        kernel::sent_back(second.surface.albedo, light_from(request, asked.direction), blocked);
+        const bool blocked = was_asked(way.fate) ? in_the_way.has_value() : way.fate != Fate::taken_for_open;
+        traced.comes_back = kernel::sent_back(second.surface.albedo, second.light, blocked);
         way.trace.steps = std::move(recording.steps);
     }
     for (TraceStep& step : way.trace.steps) {
-        add_shapes(field.shape, way, step);
-        step.geometry.push_back({"first ray", TraceShape::segment, {origin, asked.position}});
+        add_shapes(field.shape, way, "second ray", step);
+        step.geometry.push_back({"ray", TraceShape::segment, {origin, asked.position}});
         traced.trace.steps.push_back(std::move(step));
     }
 }

@@ -23,6 +23,7 @@ struct SampleTrace {
     bool visible_bit = false, occluded_bit = false;
     bool blocked_in_truth = false;  ///< by Embree
     vec3 adds{0.0f};                ///< to the pixel's irradiance, W/m^2; what is subtracted is negative
+    vec3 comes_back{0.0f};          ///< radiance from what it hit, by the second ray
 
     bool is_wrong() const {
         return (fate == Fate::taken_for_blocked && !blocked_in_truth) ||
@@ -49,7 +50,7 @@ SampleTrace trace_sample(const VisibilityField& field, const EmbreeScene& embree
                          int x, int y, int sample);
 
 /// Of a sample that is blocked: what it hit, the ray that lights that and what of it comes back, as further steps.
-/// Nothing where it hit nothing. `request`: its light and culling.
+/// Nothing where it hit nothing. `request`: its light, how that is drawn, and culling.
 void add_second_ray(const VisibilityField& field, const EmbreeScene& embree, const Scene& scene,
                     const EnvironmentRequest& request, std::uint64_t seed, const SampleRay& ray, SampleTrace& traced);
 

@@ -9,7 +9,6 @@
 #include "techniques/base/error.h"
 #include "techniques/base/parallel.h"
 #include "techniques/visibility_field/denoise.h"
-#include "techniques/visibility_field/map_sampling.h"
 #include "techniques/visibility_field/one_bounce.h"
 #include "techniques/visibility_field/weighted_samples.h"
 
@@ -79,7 +78,8 @@ constexpr std::array<Parameter, 19> parameters{{
     {"light_from", "Light from", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 0, 0,
      "The surroundings as harmonics of order 3, or the map itself with all its contrasts.", light_sources},
     {"indirect", "Indirect light", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 0, 0,
-     "Light of the surroundings by way of one other surface: what a blocked sample hits is lit by a ray of its own, which "
+     "Light of the surroundings by way of one other surface: what a blocked sample hits is lit by a ray of its own, "
+     "which "
      "the masks of the cell that is hit cull.",
      indirect_ways},
     {"denoise", "Denoising", "passes", ParameterKind::integer, ParameterAffects::picture, 0, most_denoising_passes, 0,
@@ -164,11 +164,14 @@ PatternPointer pattern_of(const RenderRequest& request) {
                                       : new_pattern(request.parameters, request.seed);
 }
 
-/// The light and which rays are traced.
+/// The light, how it is drawn, and which rays are traced.
 EnvironmentRequest light_request(const ParameterValues& chosen, const EnvironmentLight& environment) {
     EnvironmentRequest asked;
     asked.light = environment.harmonics;
     if (value_of(chosen, "light_from") != 0.0) asked.map = &environment;
+    asked.sampling = choice_of<Sampling>(chosen, "sampling");
+    if (asked.sampling == Sampling::map || asked.sampling == Sampling::both)
+        asked.distribution = &environment.distribution;
     asked.culling = culling_of(chosen);
     return asked;
 }
@@ -180,20 +183,12 @@ EnvironmentRequest environment_request(const RenderRequest& request, const Sampl
     asked.pattern = &pattern;
     asked.unshadowed = choice_of<Unshadowed>(request.parameters, "unshadowed");
     asked.order = choice_of<RayOrder>(request.parameters, "ray_order");
-    asked.sampling = choice_of<Sampling>(request.parameters, "sampling");
     asked.glossy = value_of(request.parameters, "surface") != 0.0;
     asked.roughness = static_cast<float>(value_of(request.parameters, "roughness"));
     asked.threads = request.threads;
     asked.reverse_tiles = request.reverse_tiles;
     asked.keep_verdicts = request.keep_verdicts;
     return asked;
-}
-
-/// Made for one picture, or for the samples of one pixel; takes a few milliseconds.
-std::optional<MapDistribution> distribution_for(const RenderRequest& request) {
-    const auto sampling = choice_of<Sampling>(request.parameters, "sampling");
-    if (sampling != Sampling::map && sampling != Sampling::both) return std::nullopt;
-    return make_distribution(*request.environment);
 }
 
 /// A picture that shows the surroundings where it shows no surface.
@@ -265,8 +260,6 @@ RenderResult render_samples(const RenderRequest& request, const DenseField* dens
     const SurfaceBuffer& surfaces = *request.surfaces;
     RenderResult result = background(request);
     EnvironmentRequest asked = environment_request(request, *pattern);
-    const std::optional<MapDistribution> distribution = distribution_for(request);
-    asked.distribution = distribution ? &*distribution : nullptr;
     asked.dense = dense;
     if (request.on_region)
         asked.on_region = [&](const EnvironmentResult& so_far, PixelRect changed) {
@@ -291,12 +284,7 @@ Renderer with_indirect(const VisibilityField* field, const EmbreeScene& embree, 
     if (value_of(request.parameters, "indirect") == 0.0) return make;
     assert(request.scene != nullptr);
     return [=, &embree, &progress, scene = request.scene](const EnvironmentRequest& asked) {
-        EnvironmentRequest keeping = asked;
-        keeping.keep_verdicts = true;
-        EnvironmentResult made = make(keeping);
-        add_one_bounce(field, embree, *scene, asked, made, progress);
-        if (!asked.keep_verdicts) made.verdicts = {};
-        return made;
+        return with_one_bounce(field, embree, *scene, asked, make, progress);
     };
 }
 
@@ -305,11 +293,10 @@ RenderResult render(const Structure& structure, const RenderRequest& request, Pr
     if (request.backend == Backend::vulkan) {
         const std::shared_ptr<const FieldOnDevice> device =
             built.on_device ? built.on_device : give_to_vulkan(&built.field, *built.embree, request.threads, progress);
-        return render_samples(request, nullptr,
-                              with_indirect(&built.field, *built.embree, request, progress,
-                                            [&](const EnvironmentRequest& asked) {
-                                                return render_on_vulkan(*device, asked, progress);
-                                            }));
+        return render_samples(
+            request, nullptr,
+            with_indirect(&built.field, *built.embree, request, progress,
+                          [&](const EnvironmentRequest& asked) { return render_on_vulkan(*device, asked, progress); }));
     }
     RenderResult result = render_samples(
         request, built.dense ? &*built.dense : nullptr,
@@ -341,9 +328,7 @@ std::vector<Light> as_lights(const std::vector<PixelSample>& samples) {
 
 std::vector<Light> lights(const RenderRequest& request, std::size_t pixel) {
     const PatternPointer pattern = pattern_of(request);
-    EnvironmentRequest asked = environment_request(request, *pattern);
-    const std::optional<MapDistribution> distribution = distribution_for(request);
-    asked.distribution = distribution ? &*distribution : nullptr;
+    const EnvironmentRequest asked = environment_request(request, *pattern);
     if (is_weighted(asked)) return as_lights(weighted_samples(asked, pixel));
     std::vector<Light> all(static_cast<std::size_t>(pattern->samples));
     for (std::size_t k = 0; k < all.size(); ++k) {

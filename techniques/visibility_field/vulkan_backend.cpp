@@ -17,7 +17,7 @@
 #include "techniques/compute/ray_scene.h"
 #include "techniques/pixel_groups.h"
 #include "techniques/rays/open_rays.h"
-#include "techniques/visibility_field/map_sampling.h"
+#include "techniques/scene/map_sampling.h"
 #include "techniques/visibility_field/weighted_samples.h"
 
 namespace sightlines::visibility_field {
@@ -150,9 +150,9 @@ void give_light(TileAsker& asker, const Progress& progress) {
     light.map = tables.map;
     const std::size_t texels = static_cast<std::size_t>(tables.map.width) * static_cast<std::size_t>(tables.map.height);
     light.texels = give({tables.texels, 3 * texels});
-    const MapDistribution none;
-    const MapDistribution& draws = tables.draws != nullptr ? *tables.draws : none;
-    light.draws = draws.shape;
+    const MapTables none;
+    const MapTables& draws = tables.draws != nullptr ? *tables.draws->tables : none;
+    if (tables.draws != nullptr) light.draws = tables.draws->shape;
     light.rows = give(draws.rows);
     light.heights = give(draws.heights);
     light.columns = give(draws.columns);

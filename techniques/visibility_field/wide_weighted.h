@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "shaders/weighted_samples.h"
-#include "techniques/visibility_field/map_sampling.h"
+#include "techniques/scene/map_sampling.h"
 #include "techniques/visibility_field/weighted_samples.h"
 
 #ifndef SIGHTLINES_WIDE_H
@@ -23,10 +23,10 @@ struct WideTables {
         : light{tables.texels != nullptr, tables.harmonics, {tables.map, {tables.texels}}}, draws{} {
         if (const MapDistribution* from = tables.draws)
             draws = {from->shape,
-                     {from->rows.data()},
-                     {from->heights.data()},
-                     {from->columns.data()},
-                     {from->density.data()}};
+                     {from->tables->rows.data()},
+                     {from->tables->heights.data()},
+                     {from->tables->columns.data()},
+                     {from->tables->density.data()}};
     }
 };
 

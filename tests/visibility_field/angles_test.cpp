@@ -7,7 +7,7 @@
 #include "shaders/angles.h"
 #include "shaders/map_light.h"
 #include "techniques/base/random.h"
-#include "techniques/visibility_field/map_sampling.h"
+#include "techniques/scene/environment_light.h"
 
 namespace sightlines::visibility_field {
 namespace {

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/harmonic_light.h"
+#include "shaders/one_bounce.h"
 #include "shaders/visibility_field.h"
 
 layout(local_size_x = 64) in;
@@ -20,6 +21,7 @@ struct Answer {
     uint texel;
     float back;   // how far the direction is from the one that its octahedral place stands for
     float moment; // the sum of the nine polynomials
+    float bounce; // what a surface with this normal sends back, the ray's direction as its colours
 };
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Rays { Ray v[]; };
@@ -63,5 +65,8 @@ void main() {
     add_direction(moments, direction, 1.0f);
     answer.moment = 0.0f;
     for (int term = 0; term < harmonic_terms; ++term) answer.moment += moments.of[term];
+    const vec3 second = second_direction(ray.normal, ray.direction);
+    const vec3 sent = sent_back(second, abs(ray.direction), by_both.blocked);
+    answer.bounce = sent.x + sent.y + sent.z;
     answers.v[i] = answer;
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "shaders/harmonic_light.h"
+#include "shaders/one_bounce.h"
 #include "shaders/visibility_field.h"
 #include "techniques/base/files.h"
 #include "techniques/compute/dispatch.h"
@@ -21,7 +22,7 @@ struct ShaderRay {
 
 struct ShaderAnswer {
     std::uint32_t decisions, texel;
-    float back, moment;
+    float back, moment, bounce;
 };
 
 /// Push constants of kernels.comp.
@@ -69,7 +70,10 @@ ShaderAnswer scalar_answer(const VisibilityField& field, const ShaderRay& ray) {
     kernel::add_direction(moments, direction, 1.0f);
     float sum = 0.0f;
     for (const float moment : moments.of) sum += moment;
-    return {bits_of(by_label) | bits_of(by_both) << 3u, static_cast<std::uint32_t>(texel), 0.0f, sum};
+    const vec3 second = kernel::second_direction(ray.normal, ray.direction);
+    const vec3 sent = kernel::sent_back(second, glm::abs(ray.direction), by_both.blocked);
+    return {bits_of(by_label) | bits_of(by_both) << 3u, static_cast<std::uint32_t>(texel), 0.0f, sum,
+            sent.x + sent.y + sent.z};
 }
 
 /// How the device's answers differ, and how often each bit is set.
@@ -88,6 +92,9 @@ Tally tally(const VisibilityField& field, const std::vector<ShaderRay>& rays, co
         counts.texels += answer.texel != expected.texel;
         for (std::size_t bit = 0; bit < 6; ++bit) counts.set[bit] += (expected.decisions >> bit) & 1u;
         EXPECT_NEAR(answer.moment, expected.moment, 1e-4f);
+        if (answer.decisions == expected.decisions) {
+            EXPECT_NEAR(answer.bounce, expected.bounce, 1e-5f);
+        }
         EXPECT_LT(answer.back, 1e-5f);
     }
     return counts;

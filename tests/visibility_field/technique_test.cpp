@@ -30,6 +30,7 @@ struct Asked {
         structure = technique().build({.scene = &scene, .parameters = parameters, .threads = 2}, progress);
         samples = technique().environment->samples(parameters, 1);
         request.surfaces = &surfaces;
+        request.scene = &scene;
         request.samples = &samples;
         request.environment = &light;
         request.parameters = parameters;
@@ -176,6 +177,45 @@ TEST(FieldTechnique, TakesNoiseOutWhereAsked) {
         return sum;
     };
     EXPECT_LT(error(smooth.picture()), 0.9 * error(noisy.picture()));
+}
+
+TEST(FieldTechnique, LightsSurfacesByEachOtherOnBothBackendsWhereAsked) {
+    const auto sum = [](const RenderResult& result) {
+        double all = 0.0;
+        for (const vec3 each : result.radiance.pixels) all += each.y;
+        return all;
+    };
+    Asked direct, indirect({{"indirect", 1.0}});
+    const RenderResult ours = indirect.picture(), truth = indirect.reference();
+    EXPECT_GT(sum(ours), 1.02 * sum(direct.picture()));
+    EXPECT_EQ(ours.verdicts.words, direct.picture().verdicts.words);
+    EXPECT_NEAR(sum(ours), sum(truth), 0.01 * sum(truth));
+    EXPECT_GT(ours.rays, direct.picture().rays);
+    EXPECT_LT(ours.rays_traced, truth.rays_traced);
+    if (compute::list_devices().empty() || !compute::list_devices().front().lacks.empty())
+        GTEST_SKIP() << "no usable Vulkan device";
+    indirect.request.backend = Backend::vulkan;
+    EXPECT_LT(compare(indirect.picture(), ours).rmse, 2e-3);
+}
+
+TEST(FieldTechnique, GoesOnInTheTraceWithWhatABlockedSampleHit) {
+    Asked asked({{"indirect", 1.0}});
+    const RenderResult ours = asked.picture();
+    int followed = 0;
+    for (std::size_t p = 0; p < size.pixels(); p += 11) {
+        if (!asked.shows_surface(p)) continue;
+        const std::vector<Light> samples = technique().environment->lights(asked.request, p);
+        for (std::uint32_t k = 0; k < samples.size(); k += 5) {
+            if (glm::dot(asked.surfaces.normal[p], samples[k].direction) >= 0.0f) continue;
+            const Trace trace =
+                technique().trace(asked.structure, {asked.surfaces.position[p], asked.surfaces.normal[p], samples[k],
+                                                    asked.parameters, &asked.scene, &asked.light, asked.request.seed});
+            const bool goes_on = trace.steps.back().paper == "Section 6, indirect illumination";
+            ASSERT_TRUE(!goes_on || ours.verdicts.blocked(p, k));
+            followed += goes_on;
+        }
+    }
+    EXPECT_GT(followed, 50);
 }
 
 TEST(FieldTechnique, TellsInTheTraceWhichSampleShouldHaveSeenAWrongRay) {

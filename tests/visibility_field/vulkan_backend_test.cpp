@@ -10,7 +10,7 @@
 
 #include "techniques/compute/device.h"
 #include "techniques/scene/harmonics.h"
-#include "techniques/visibility_field/map_sampling.h"
+#include "techniques/scene/environment_light.h"
 #include "tests/visibility_field/scenes.h"
 
 namespace sightlines::visibility_field {
@@ -148,8 +148,7 @@ TEST(FieldOnVulkan, AnswersSamplesThatHaveWeightsOfTheirOwn) {
     NEEDS_VULKAN;
     Case asked;
     const EnvironmentLight sky = make_environment_light(procedural_sky({}));
-    const MapDistribution distribution = make_distribution(sky);
-    asked.request.distribution = &distribution;
+    asked.request.distribution = &sky.distribution;
     for (const bool from_map : {false, true})
         for (const bool glossy : {false, true})
             for (const Sampling sampling : {Sampling::cosine, Sampling::brdf, Sampling::map, Sampling::both}) {

@@ -8,7 +8,7 @@
 
 #include "shaders/weighted_samples.h"
 #include "techniques/base/hammersley.h"
-#include "techniques/visibility_field/map_sampling.h"
+#include "techniques/scene/map_sampling.h"
 #include "tests/visibility_field/scenes.h"
 
 namespace sightlines::visibility_field {
@@ -29,13 +29,12 @@ struct Prepared {
     std::shared_ptr<const EmbreeScene> embree = test::built(scene);
     SurfaceBuffer surfaces = test::seen(scene, *embree, testing::courtyard_camera(), {40, 24});
     EnvironmentLight light = sunny_light(4.0f);
-    MapDistribution distribution = make_distribution(light);
     SamplePattern pattern;
     EnvironmentRequest request;
 
     explicit Prepared(int samples = 64) {
         request.surfaces = &surfaces;
-        request.distribution = &distribution;
+        request.distribution = &light.distribution;
         request.light = light.harmonics;
         request.threads = 2;
         request.unshadowed = Unshadowed::sampled;
@@ -176,8 +175,11 @@ std::vector<PixelSample> scalar_samples(const EnvironmentRequest& request, std::
     const kernel::Surroundings light{tables.texels != nullptr, tables.harmonics, {tables.map, {tables.texels}}};
     kernel::MapDraws draws{};
     if (const MapDistribution* from = tables.draws)
-        draws = {
-            from->shape, {from->rows.data()}, {from->heights.data()}, {from->columns.data()}, {from->density.data()}};
+        draws = {from->shape,
+                 {from->tables->rows.data()},
+                 {from->tables->heights.data()},
+                 {from->tables->columns.data()},
+                 {from->tables->density.data()}};
     std::vector<PixelSample> samples;
     const auto draw = [&](std::uint32_t way, std::uint32_t count) {
         for (std::uint32_t k = 0; k < count; ++k) {

@@ -1,14 +1,17 @@
-#include "techniques/visibility_field/map_sampling.h"
+#include "techniques/scene/map_sampling.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "shaders/map_light.h"
+#include "techniques/scene/environment.h"
+#include "techniques/scene/harmonics.h"
 
-namespace sightlines::visibility_field {
+namespace sightlines {
 namespace {
 
 constexpr float even_share = 0.01f;
@@ -63,20 +66,19 @@ double accumulate(std::span<const double> weights, std::vector<float>& to) {
 }
 
 scalar_kernel::MapDraws draws_of(const MapDistribution& distribution) {
+    const MapTables& tables = *distribution.tables;
     return {distribution.shape,
-            {distribution.rows.data()},
-            {distribution.heights.data()},
-            {distribution.columns.data()},
-            {distribution.density.data()}};
+            {tables.rows.data()},
+            {tables.heights.data()},
+            {tables.columns.data()},
+            {tables.density.data()}};
 }
 
 }  // namespace
 
-MapDistribution make_distribution(const EnvironmentLight& light) {
-    const ImageRgb& map = light.map->radiance;
-    MapDistribution made;
+MapDistribution make_distribution(const ImageRgb& map) {
+    MapTables made;
     made.size = {std::min(map.size.width, most.width), std::min(map.size.height, most.height)};
-    made.shape = map_shape(made.size, light.turn_deg);
     made.density.reserve(made.size.pixels());
     made.columns.reserve(made.size.pixels() + static_cast<std::size_t>(made.size.height));
     for (int row = 0; row <= made.size.height; ++row)
@@ -95,7 +97,12 @@ MapDistribution make_distribution(const EnvironmentLight& light) {
     for (std::size_t row = 0; row < static_cast<std::size_t>(made.size.height); ++row)
         rows.push_back(accumulate(std::span(weights).subspan(row * width, width), made.columns));
     accumulate(rows, made.rows);
-    return made;
+    const MapShape shape = map_shape(made.size, 0.0f);
+    return {std::make_shared<const MapTables>(std::move(made)), shape};
+}
+
+MapDistribution turned(const MapDistribution& distribution, float turn_deg) {
+    return {distribution.tables, map_shape(distribution.tables->size, turn_deg)};
 }
 
 MapShape map_shape(ImageSize size, float turn_deg) {
@@ -117,4 +124,4 @@ float drawn_density(const MapDistribution& distribution, vec3 direction) {
     return scalar_kernel::density_by_map(draws_of(distribution), direction);
 }
 
-}  // namespace sightlines::visibility_field
+}  // namespace sightlines
