@@ -65,6 +65,7 @@ struct Picture {
     const Scene& scene;
     const EnvironmentRequest& request;
     const EnvironmentRequest& white;  ///< the same samples under even light: what each weighs
+    WeightedTables tables;            ///< of these
     EnvironmentResult& result;
     ImageRgb& gained;  ///< irradiance
 };
@@ -148,7 +149,7 @@ void answer_first(const Picture& picture, TileRoom& room) {
 
 /// A pixel's samples, and what even light of radiance 1 from each would add.
 std::vector<PixelSample> weighed_samples(const Picture& picture, std::size_t pixel) {
-    if (is_weighted(picture.request)) return weighted_samples(picture.white, pixel);
+    if (is_weighted(picture.request)) return weighted_samples(picture.white, picture.tables, pixel);
     const EnvironmentRequest& request = picture.request;
     const SurfaceBuffer& surfaces = *request.surfaces;
     const SamplePattern& pattern = *request.pattern;
@@ -241,7 +242,7 @@ EnvironmentResult with_one_bounce(const VisibilityField* field, const EmbreeScen
     white.light = {};
     white.light.coefficient[0] = vec3(2.0f * std::sqrt(std::numbers::pi_v<float>));  // over Y00: 1 from everywhere
     ImageRgb gained(request.surfaces->size);
-    const Picture picture{field, embree, scene, request, white, result, gained};
+    const Picture picture{field, embree, scene, request, white, weighted_tables(white), result, gained};
     EnvironmentResult second;
     ask_tiles(asked, second, progress, [&](int left, int top) { return follow_tile(picture, left, top); });
     result.second_rays = second.counts;

@@ -65,14 +65,20 @@ void draw_samples(const WeightedTables& tables, const WeightedPixel& pixel, std:
 bool leaves(const SampledSurface& surface, vec3 direction) { return direction != -surface.normal; }
 
 /// What each sample adds, those below their surface nothing.
-void weigh_each(const WideTables& tables, const WeightedPixel& pixel, std::vector<PixelSample>& samples) {
-    Directions one(1);
-    one.count = 1;
-    for (PixelSample& sample : samples) {
-        one.x[0] = sample.direction.x;
-        one.y[0] = sample.direction.y;
-        one.z[0] = sample.direction.z;
-        if (leaves(pixel.surface, sample.direction)) sample.adds = sum_of_weighed(tables, pixel.surface, one);
+void weigh_each(const WideTables& tables, const SampledSurface& surface, std::vector<PixelSample>& samples) {
+    for (std::size_t first = 0; first < samples.size(); first += wide::lanes) {
+        const std::size_t used = std::min(wide::lanes, samples.size() - first);
+        float axes[3][wide::lanes] = {};
+        for (std::size_t lane = 0; lane < used; ++lane)
+            for (int axis = 0; axis < 3; ++axis) axes[axis][lane] = samples[first + lane].direction[axis];
+        const wide::Vec3 brings = wide::weighed(surface, tables.light, tables.draws,
+                                                {wide::load(axes[0]), wide::load(axes[1]), wide::load(axes[2])});
+        wide::store(brings.x, axes[0]);
+        wide::store(brings.y, axes[1]);
+        wide::store(brings.z, axes[2]);
+        for (std::size_t lane = 0; lane < used; ++lane)
+            if (leaves(surface, samples[first + lane].direction))
+                samples[first + lane].adds = {axes[0][lane], axes[1][lane], axes[2][lane]};
     }
 }
 
@@ -126,15 +132,19 @@ WeightedTables weighted_tables(const EnvironmentRequest& request) {
     return tables;
 }
 
-std::vector<PixelSample> weighted_samples(const EnvironmentRequest& request, std::size_t index) {
-    const WeightedTables tables = weighted_tables(request);
+std::vector<PixelSample> weighted_samples(const EnvironmentRequest& request, const WeightedTables& tables,
+                                          std::size_t index) {
     const WeightedPixel pixel = weighted_pixel(request, index);
     std::vector<vec3> directions(static_cast<std::size_t>(request.pattern->samples));
     draw_samples(tables, pixel, directions);
     std::vector<PixelSample> samples;
     for (const vec3 direction : directions) samples.push_back({direction, vec3(0.0f)});
-    weigh_each(WideTables(tables), pixel, samples);
+    weigh_each(WideTables(tables), pixel.surface, samples);
     return samples;
+}
+
+std::vector<PixelSample> weighted_samples(const EnvironmentRequest& request, std::size_t index) {
+    return weighted_samples(request, weighted_tables(request), index);
 }
 
 }  // namespace sightlines::visibility_field

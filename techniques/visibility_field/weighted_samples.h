@@ -46,4 +46,8 @@ struct WeightedTables {
 };
 WeightedTables weighted_tables(const EnvironmentRequest& request);
 
+/// The same as above, with the request's tables made once for many pixels.
+std::vector<PixelSample> weighted_samples(const EnvironmentRequest& request, const WeightedTables& tables,
+                                          std::size_t pixel);
+
 }  // namespace sightlines::visibility_field
