@@ -78,6 +78,7 @@ void field_by_samples(MeasuredTable& table, BenchRun& run, Results& results, Pro
 void field_labels(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 void field_glossy(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 void field_memory(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
+void field_area_lights(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 void field_moments(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 }  // namespace tables
 

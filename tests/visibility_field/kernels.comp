@@ -4,6 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/area_light.h"
 #include "shaders/harmonic_light.h"
 #include "shaders/visibility_field.h"
 
@@ -20,6 +21,8 @@ struct Answer {
     uint texel;
     float back;   // how far the direction is from the one that its octahedral place stands for
     float moment; // the sum of the nine polynomials
+    uint segment; // the decision of a segment to a light
+    float light;  // what it adds
 };
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Rays { Ray v[]; };
@@ -63,5 +66,8 @@ void main() {
     add_direction(moments, direction, 1.0f);
     answer.moment = 0.0f;
     for (int term = 0; term < harmonic_terms; ++term) answer.moment += moments.of[term];
+    const Decision segment = decide_segment(above, ray.position.x > 0.0f, ray.position.z > 0.0f);
+    answer.segment = (segment.trace ? 1u : 0u) | (segment.blocked ? 2u : 0u) | (segment.open ? 4u : 0u);
+    answer.light = segment_adds(abs(ray.position), 0.5f, 0.25f, 2.0f, 0.125f).y;
     answers.v[i] = answer;
 }
