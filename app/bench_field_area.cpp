@@ -12,7 +12,7 @@ using namespace visibility_field;
 namespace {
 
 constexpr std::array<std::string_view, 2> lit_scenes{"cornell", "tv"};
-constexpr int sight_rays = 64;  ///< the technique's default
+constexpr int sight_rays = 64;
 constexpr int reference_samples = 256;
 
 constexpr FieldFigure lights{"triangles that shine", "", 0, false}, time_without{"time without the field", "ms", 1},

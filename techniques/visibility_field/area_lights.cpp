@@ -71,7 +71,7 @@ struct Picture {
     const Scene& scene;
     const EnvironmentRequest& request;
     const AreaLights& lights;
-    int samples;
+    const std::vector<vec2>& even;  ///< what each pixel's points are drawn by, before they are shifted
     EnvironmentResult& result;
     ImageRgb& gained;  ///< irradiance
 };
@@ -96,6 +96,7 @@ struct LitPixel {
     WeightedPixel weighted;
     vec3 position{0.0f}, start{0.0f};
     std::uint32_t cell = kernel::no_cell;
+    std::size_t known_at = 0;  ///< AreaSight::place of the cell
 };
 
 /// What of the light from `direction` the surface reflects, times pi: 1 where it reflects evenly.
@@ -124,8 +125,8 @@ void answer_waiting(const Picture& picture, TileRoom& room) {
 kernel::Decision decide_for(const Picture& picture, const LitPixel& lit, const AreaPoint& point, bool faces) {
     if (picture.sight == nullptr || lit.cell == kernel::no_cell) return kernel::decide_segment(faces, false, false);
     const std::uint32_t part = picture.lights.triangles[point.at].part;
-    const std::size_t place = picture.sight->place(lit.cell, side_of(lit.weighted.surface.normal));
-    return kernel::decide_segment(faces, picture.sight->seen(place, part), picture.sight->hidden(place, part));
+    return kernel::decide_segment(faces, picture.sight->seen(lit.known_at, part),
+                                  picture.sight->hidden(lit.known_at, part));
 }
 
 void light_from_point(const Picture& picture, const LitPixel& lit, const AreaPoint& point, TileRoom& room) {
@@ -140,7 +141,7 @@ void light_from_point(const Picture& picture, const LitPixel& lit, const AreaPoi
     if (decision.blocked) return;
     const vec3 emission = emission_at(picture.scene, light.triangle, point.barycentric);
     const vec3 adds = kernel::segment_adds(emission, cosine_here, segment.cosine_there, segment.distance_m,
-                                           light.per_m2 * static_cast<float>(picture.samples)) *
+                                           light.per_m2 * static_cast<float>(picture.even.size())) *
                       reflected_times_pi(surface, segment.direction);
     if (decision.open) {
         picture.gained.pixels[lit.pixel] += adds;
@@ -166,10 +167,11 @@ void light_pixel(const Picture& picture, int x, int y, TileRoom& room) {
         lit.cell = kernel::locate_cell(picture.field->shape, {picture.field->bricks.data()}, lit.position,
                                        surfaces.normal[lit.pixel])
                        .index;
-    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(picture.samples); ++k)
-        light_from_point(picture, lit,
-                         draw_point(picture.lights, point_numbers(picture.request, lit.pixel, k, picture.samples)),
-                         room);
+    if (picture.sight != nullptr && lit.cell != kernel::no_cell)
+        lit.known_at = picture.sight->place(lit.cell, side_of(surfaces.normal[lit.pixel]));
+    const vec2 shift = point_shift(picture.request, lit.pixel);
+    for (const vec2 even : picture.even)
+        light_from_point(picture, lit, draw_point(picture.lights, glm::fract(even + shift)), room);
 }
 
 SampleCounts light_tile(const Picture& picture, int left, int top) {
@@ -270,7 +272,7 @@ AreaPoint draw_point(const AreaLights& lights, vec2 numbers) {
     return point;
 }
 
-vec2 point_numbers(const EnvironmentRequest& request, std::size_t pixel, std::uint32_t k, int samples) {
+vec2 point_shift(const EnvironmentRequest& request, std::size_t pixel) {
     const SamplePattern& pattern = *request.pattern;
     const auto width = static_cast<std::size_t>(request.surfaces->size.width);
     const auto x = static_cast<int>(pixel % width), y = static_cast<int>(pixel / width);
@@ -282,7 +284,7 @@ vec2 point_numbers(const EnvironmentRequest& request, std::size_t pixel, std::ui
                       random_unit(pattern.seed ^ area_seed, stream, 1));
     const vec2 noise(pattern.share[pattern.tile_place(x + 31, y + 17)],
                      pattern.share[pattern.tile_place(x + 5, y + 53)]);
-    return glm::fract(hammersley(k, static_cast<std::uint32_t>(samples)) + noise + chance / step);
+    return noise + chance / step;
 }
 
 AreaSegment segment_to(const AreaLights& lights, const AreaPoint& point, vec3 position, vec3 normal, float lift_m) {
@@ -305,8 +307,11 @@ void add_area_lights(const VisibilityField* field, const AreaSight* sight, const
     const AreaLights lights = find_area_lights(scene);
     if (lights.triangles.empty()) return;
     ImageRgb gained(request.surfaces->size);
+    std::vector<vec2> even;
+    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(samples); ++k)
+        even.push_back(hammersley(k, static_cast<std::uint32_t>(samples)));
     const bool knows = sight != nullptr && sight->words > 0;
-    const Picture picture{field, knows ? sight : nullptr, embree, scene, request, lights, samples, result, gained};
+    const Picture picture{field, knows ? sight : nullptr, embree, scene, request, lights, even, result, gained};
     EnvironmentRequest watched = request;
     if (request.on_region)
         watched.on_region = [&](const EnvironmentResult&, PixelRect changed) { request.on_region(result, changed); };

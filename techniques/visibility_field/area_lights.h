@@ -54,8 +54,8 @@ AreaLights find_area_lights(const Scene& scene);
 /// Radiance of a triangle's point, W/(sr m^2); black in the holes of a masked material.
 vec3 emission_at(const Scene& scene, std::uint32_t triangle, vec2 barycentric);
 
-/// The numbers in [0, 1) that a pixel draws its point k of `samples` by: Hammersley's, shifted by blue noise.
-vec2 point_numbers(const EnvironmentRequest& request, std::size_t pixel, std::uint32_t k, int samples);
+/// By how much a pixel shifts the Hammersley points that it draws points of the lights by: blue noise.
+vec2 point_shift(const EnvironmentRequest& request, std::size_t pixel);
 
 /// The point that is drawn by two numbers in [0, 1). There must be lights.
 AreaPoint draw_point(const AreaLights& lights, vec2 numbers);

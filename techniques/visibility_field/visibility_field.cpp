@@ -46,7 +46,7 @@ constexpr std::array<Parameter, 21> parameters{{
      "By how much both masks grow where no rays are spent at their rims, so that directions between the rays count "
      "too; "
      "in steps of a third of a texel for masks of 18."},
-    {"area_rays", "Rays to area lights", "", ParameterKind::integer, ParameterAffects::structure, 0, 4096, 64, 0,
+    {"area_rays", "Rays to area lights", "", ParameterKind::integer, ParameterAffects::structure, 0, 4096, 0, 0,
      "Cast from each side of a cell to each part of the surfaces that shine by themselves, so that segments to it need "
      "no ray "
      "where "

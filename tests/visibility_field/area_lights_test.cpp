@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "shaders/area_light.h"
+#include "techniques/base/hammersley.h"
 #include "techniques/visibility_field/area_sight.h"
 #include "techniques/visibility_field/glossy.h"
 #include "techniques/visibility_field/ray_order.h"
@@ -174,8 +175,8 @@ dvec3 irradiance_one_by_one(const Asked& asked, const AreaLights& lights, std::s
     const vec3 here = surfaces.position[p], up = surfaces.shading_normal[p];
     dvec3 sum(0.0);
     for (int k = 0; k < asked.samples; ++k) {
-        const AreaPoint point =
-            draw_point(lights, point_numbers(asked.request, p, static_cast<std::uint32_t>(k), asked.samples));
+        const vec2 even = hammersley(static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(asked.samples));
+        const AreaPoint point = draw_point(lights, glm::fract(even + point_shift(asked.request, p)));
         const AreaTriangle& light = lights.triangles[point.at];
         const vec3 towards = point.position - here;
         const double distance = glm::length(towards);
@@ -457,7 +458,7 @@ TEST(AreaLights, ComeOnTopOfTheSurroundingsThroughTheTechnique) {
     const auto embree = test::built(scene);
     const SurfaceBuffer surfaces = test::seen(scene, *embree, testing::courtyard_camera(), size);
     const EnvironmentLight light = make_environment_light(procedural_sky({}));
-    ParameterValues parameters{{"points", 6000.0}, {"rays_per_point", 64.0}, {"samples", 16.0}};
+    ParameterValues parameters{{"points", 6000.0}, {"rays_per_point", 64.0}, {"samples", 16.0}, {"area_rays", 64.0}};
     Progress progress;
     const Structure structure = technique().build({.scene = &scene, .parameters = parameters, .threads = 2}, progress);
     RenderRequest request;
