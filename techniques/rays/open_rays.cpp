@@ -18,7 +18,10 @@ void load_packet(const PackedOpenRays& rays, std::size_t first, RTCRay16& packet
         std::copy_n(rays.origin[axis] + first, packet_lanes, origin[axis]);
         std::copy_n(rays.direction[axis] + first, packet_lanes, direction[axis]);
     }
-    std::ranges::fill(packet.tfar, std::numeric_limits<float>::infinity());
+    if (rays.length_m != nullptr)
+        std::copy_n(rays.length_m + first, packet_lanes, packet.tfar);
+    else
+        std::ranges::fill(packet.tfar, std::numeric_limits<float>::infinity());
     const std::size_t used = std::min(packet_lanes, rays.count - first);
     for (std::size_t lane = 0; lane < packet_lanes; ++lane) valid[lane] = lane < used ? -1 : 0;
 }
@@ -58,7 +61,8 @@ void find_closest(const EmbreeScene& embree, const PackedOpenRays& rays, std::sp
             Hit& hit = hits[first + lane];
             hit = {};
             if (packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
-            hit = {packet.ray.tfar[lane], triangle_hit(embree, packet.hit.geomID[lane], packet.hit.primID[lane]),
+            hit = {packet.ray.tfar[lane],
+                   triangle_hit(embree, packet.hit.geomID[lane], packet.hit.primID[lane]),
                    {packet.hit.u[lane], packet.hit.v[lane]}};
         }
     }

@@ -8,12 +8,13 @@
 
 namespace sightlines {
 
-/// `count` rays that have no end. Each axis is an array of its own that holds at least 16 numbers more than it must (a
-/// whole last packet).
+/// `count` rays that have no end, unless told otherwise. Each axis is an array of its own that holds at least 16
+/// numbers more than it must (a whole last packet).
 struct PackedOpenRays {
     const float* origin[3] = {};     ///< m, off the surface: lifted_off
     const float* direction[3] = {};  ///< unit
     std::size_t count = 0;
+    const float* length_m = nullptr;  ///< what lies farther is not in the way; null: none has an end
 };
 
 /// How far above its surface a ray starts: 1e-5 of the scene's extent.

@@ -11,6 +11,7 @@
 #include "techniques/rays/open_rays.h"
 #include "techniques/visibility_field/decide.h"
 #include "techniques/visibility_field/picture_tiles.h"
+#include "techniques/visibility_field/ray_list.h"
 #include "techniques/visibility_field/ray_order.h"
 #include "techniques/visibility_field/weighted_samples.h"
 
@@ -20,32 +21,6 @@ namespace {
 namespace kernel = scalar_kernel;
 
 constexpr std::uint64_t second_ray_seed = 0x626f756e6365u;
-constexpr std::size_t most_waiting = 32768;  ///< rays that are asked together
-
-/// Rays side by side, with room for a whole last packet.
-struct RayList {
-    std::vector<float> origin[3], direction[3];
-    std::size_t count = 0;
-
-    RayList() {
-        for (auto& axis : origin) axis.resize(most_waiting + 16);
-        for (auto& axis : direction) axis.resize(most_waiting + 16);
-    }
-    void add(vec3 from, vec3 along) {
-        for (int axis = 0; axis < 3; ++axis) {
-            origin[axis][count] = from[axis];
-            direction[axis][count] = along[axis];
-        }
-        ++count;
-    }
-    PackedOpenRays packed() const {
-        return {{origin[0].data(), origin[1].data(), origin[2].data()},
-                {direction[0].data(), direction[1].data(), direction[2].data()},
-                count};
-    }
-    vec3 direction_of(std::size_t ray) const { return {direction[0][ray], direction[1][ray], direction[2][ray]}; }
-    vec3 origin_of(std::size_t ray) const { return {origin[0][ray], origin[1][ray], origin[2][ray]}; }
-};
 
 /// A sample that met something: its pixel, and what radiance from there adds to the pixel's irradiance.
 struct Blocked {

@@ -51,6 +51,7 @@ PackedOpenRays sorted(const PackedOpenRays& rays, SortingRoom& room) {
         room.place.resize(padded);
         for (auto& axis : room.origin) axis.resize(padded);
         for (auto& axis : room.direction) axis.resize(padded);
+        room.length_m.resize(padded);
     }
     find_keys(rays.direction, rays.count, room.key);
     find_places(std::span(room.key).first(rays.count), room.place);
@@ -60,9 +61,12 @@ PackedOpenRays sorted(const PackedOpenRays& rays, SortingRoom& room) {
             room.direction[axis][room.place[k]] = rays.direction[axis][k];
         }
     }
+    if (rays.length_m != nullptr)
+        for (std::size_t k = 0; k < rays.count; ++k) room.length_m[room.place[k]] = rays.length_m[k];
     return {{room.origin[0].data(), room.origin[1].data(), room.origin[2].data()},
             {room.direction[0].data(), room.direction[1].data(), room.direction[2].data()},
-            rays.count};
+            rays.count,
+            rays.length_m != nullptr ? room.length_m.data() : nullptr};
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace sightlines::visibility_field {
 /// What one thread needs again and again.
 struct SortingRoom {
     std::vector<std::uint32_t> key, place;
-    std::vector<float> origin[3], direction[3];
+    std::vector<float> origin[3], direction[3], length_m;
     std::vector<std::uint32_t> blocked;
     std::vector<Hit> hits;
 };

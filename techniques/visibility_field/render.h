@@ -96,6 +96,7 @@ struct EnvironmentResult {
     Verdicts verdicts;  ///< bit k: sample k is above the surface and counts as blocked; empty unless asked for
     SampleCounts counts;
     SampleCounts second_rays;  ///< of indirect light (one_bounce.h): a sample for each surface that was hit
+    SampleCounts area_rays;  ///< of local area lights (area_lights.h): a sample that cannot shine here counts as below
     double seconds = 0.0;
     std::string device;
 };

@@ -8,6 +8,8 @@
 
 #include "techniques/base/error.h"
 #include "techniques/base/parallel.h"
+#include "techniques/scene/moving_parts.h"
+#include "techniques/visibility_field/area_lights.h"
 #include "techniques/visibility_field/denoise.h"
 #include "techniques/visibility_field/one_bounce.h"
 #include "techniques/visibility_field/weighted_samples.h"
@@ -27,7 +29,7 @@ constexpr std::array<std::string_view, 4> samplings{"cosine", "brdf", "map", "bo
 constexpr std::array<std::string_view, 2> light_sources{"harmonics", "map"};
 constexpr std::array<std::string_view, 2> indirect_ways{"off", "once"};
 
-constexpr std::array<Parameter, 19> parameters{{
+constexpr std::array<Parameter, 21> parameters{{
     {"cell_size", "Cell size", "m", ParameterKind::real, ParameterAffects::structure, 0.01, 1000, 0.5, 0.5,
      "Side of a cell of the grid."},
     {"mask_size", "Mask size", "texels", ParameterKind::integer, ParameterAffects::structure, 8, 64, 18, 18,
@@ -43,6 +45,11 @@ constexpr std::array<Parameter, 19> parameters{{
      "By how much both masks grow where no rays are spent at their rims, so that directions between the rays count "
      "too; "
      "in steps of a third of a texel for masks of 18."},
+    {"area_rays", "Rays to area lights", "", ParameterKind::integer, ParameterAffects::structure, 0, 4096, 0, 0,
+     "Cast from each side of a cell to each part of the surfaces that shine by themselves, so that segments to it need "
+     "no ray "
+     "where "
+     "they agree. 0: all are traced, as always in scenes that move."},
     {"placement", "Placement", "", ParameterKind::choice, ParameterAffects::structure, 0, 1, 1, 0,
      "Where point samples lie: at random by area, as in the paper, or spread so that every cell and triangle has its "
      "share.",
@@ -82,6 +89,8 @@ constexpr std::array<Parameter, 19> parameters{{
      "which "
      "the masks of the cell that is hit cull.",
      indirect_ways},
+    {"area_samples", "Area lights", "samples", ParameterKind::integer, ParameterAffects::picture, 0, 256, 0, 0,
+     "That each pixel draws on the scene's surfaces that shine by themselves; 0: these light nothing."},
     {"denoise", "Denoising", "passes", ParameterKind::integer, ParameterAffects::picture, 0, most_denoising_passes, 0,
      0, "Passes of a filter that takes noise out of the irradiance and keeps edges; 0: none."},
     {"ray_order", "Order of rays", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 1, 0,
@@ -148,6 +157,12 @@ Structure build(const BuildRequest& request, Progress& progress) {
     built->field = built->fixed
                        ? bake_moment(*built->fixed, scene, *built->embree, built->options, progress, &built->points)
                        : bake(scene, *built->embree, built->options, progress, &built->points);
+    if (!built->fixed)
+        built->area_sight = bake_area_sight(scene, built->field, *built->embree, built->points,
+                                            {.rays = static_cast<int>(value_of(request.parameters, "area_rays")),
+                                             .seed = built->options.seed,
+                                             .threads = request.threads},
+                                            progress);
     if (value_of(request.parameters, "layout") != 0.0) built->dense = to_dense(built->field);
     if (request.backend == Backend::vulkan)
         built->on_device = give_to_vulkan(&built->field, *built->embree, request.threads, progress);
@@ -270,9 +285,9 @@ RenderResult render_samples(const RenderRequest& request, const DenseField* dens
     denoise_picture(asked, static_cast<int>(value_of(request.parameters, "denoise")), made);
     take_over(made, surfaces, {0, 0, surfaces.size.width, surfaces.size.height}, result);
     result.verdicts = std::move(made.verdicts);
-    const SampleCounts& second = made.second_rays;
-    result.rays = made.counts.samples - made.counts.below + second.samples - second.below;
-    result.rays_traced = made.counts.traced + second.traced;
+    for (const SampleCounts& asked_too : {made.second_rays, made.area_rays}) add(made.counts, asked_too);
+    result.rays = made.counts.samples - made.counts.below;
+    result.rays_traced = made.counts.traced;
     result.seconds = made.seconds;
     result.device = made.device;
     return result;
@@ -288,6 +303,27 @@ Renderer with_indirect(const VisibilityField* field, const EmbreeScene& embree, 
     };
 }
 
+/// The same with local area lights where the request asks for them. `built` null: every segment is traced.
+Renderer with_area_lights(const BuiltField* built, const EmbreeScene& embree, const RenderRequest& request,
+                          Progress& progress, Renderer make) {
+    const auto samples = static_cast<int>(value_of(request.parameters, "area_samples"));
+    if (samples == 0) return make;
+    assert(request.scene != nullptr);
+    return [=, &embree, &progress, scene = request.scene](const EnvironmentRequest& asked) {
+        EnvironmentResult made = make(asked);
+        add_area_lights(built != nullptr ? &built->field : nullptr, built != nullptr ? &built->area_sight : nullptr,
+                        embree, *scene, asked, samples, made, progress);
+        return made;
+    };
+}
+
+/// All that goes on from what `make` gives.
+Renderer with_more_light(const BuiltField* built, const EmbreeScene& embree, const RenderRequest& request,
+                         Progress& progress, const Renderer& make) {
+    return with_area_lights(built, embree, request, progress,
+                            with_indirect(built != nullptr ? &built->field : nullptr, embree, request, progress, make));
+}
+
 RenderResult render(const Structure& structure, const RenderRequest& request, Progress& progress) {
     const BuiltField& built = built_field(structure);
     if (request.backend == Backend::vulkan) {
@@ -295,21 +331,22 @@ RenderResult render(const Structure& structure, const RenderRequest& request, Pr
             built.on_device ? built.on_device : give_to_vulkan(&built.field, *built.embree, request.threads, progress);
         return render_samples(
             request, nullptr,
-            with_indirect(&built.field, *built.embree, request, progress,
-                          [&](const EnvironmentRequest& asked) { return render_on_vulkan(*device, asked, progress); }));
+            with_more_light(&built, *built.embree, request, progress, [&](const EnvironmentRequest& asked) {
+                return render_on_vulkan(*device, asked, progress);
+            }));
     }
-    RenderResult result = render_samples(
-        request, built.dense ? &*built.dense : nullptr,
-        with_indirect(&built.field, *built.embree, request, progress, [&](const EnvironmentRequest& asked) {
-            return render_environment(&built.field, *built.embree, asked, progress);
-        }));
+    RenderResult result =
+        render_samples(request, built.dense ? &*built.dense : nullptr,
+                       with_more_light(&built, *built.embree, request, progress, [&](const EnvironmentRequest& asked) {
+                           return render_environment(&built.field, *built.embree, asked, progress);
+                       }));
     result.device = cpu_device(request.threads);
     return result;
 }
 
 RenderResult reference(const EmbreeScene& embree, const RenderRequest& request, Progress& progress) {
     RenderResult result = render_samples(
-        request, nullptr, with_indirect(nullptr, embree, request, progress, [&](const EnvironmentRequest& asked) {
+        request, nullptr, with_more_light(nullptr, embree, request, progress, [&](const EnvironmentRequest& asked) {
             return render_environment(nullptr, embree, asked, progress);
         }));
     result.device = cpu_device(request.threads);
@@ -405,6 +442,12 @@ Statistics statistics(const Structure& structure) {
             {"cells with the masks of what stands still", static_cast<double>(field.kept_cells), ""});
         statistics.values.push_back({"rays cast for this moment", static_cast<double>(field.rays_again), ""});
         statistics.values.push_back({"baking what stands still, once", built.fixed->seconds, "s"});
+    }
+    if (built.area_sight.words > 0) {
+        statistics.structure_bytes += built.area_sight.bytes();
+        statistics.values.push_back(
+            {"what cells know of area lights", static_cast<double>(built.area_sight.bytes()), "B"});
+        statistics.values.push_back({"finding that out", built.area_sight.seconds, "s"});
     }
     if (built.on_device) {
         const auto [rays, bytes] = rays_used(*built.on_device);

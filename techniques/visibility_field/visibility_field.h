@@ -3,6 +3,7 @@
 #pragma once
 
 #include "techniques/technique.h"
+#include "techniques/visibility_field/area_sight.h"
 #include "techniques/visibility_field/bake.h"
 #include "techniques/visibility_field/moving_bake.h"
 #include "techniques/visibility_field/trace.h"
@@ -19,6 +20,7 @@ struct BuiltField {
     std::shared_ptr<const FixedField> fixed;  ///< where the scene moves: what its other moments can use
     BakeOptions options;
     std::shared_ptr<const EmbreeScene> embree;       ///< that answers what the field leaves open
+    AreaSight area_sight;                            ///< empty where nothing shines, or the scene moves
     std::optional<DenseField> dense;                 ///< where the paper's layout is asked for
     std::shared_ptr<const FieldOnDevice> on_device;  ///< where it was built for Vulkan
     double build_seconds = 0.0;

@@ -33,7 +33,7 @@ double ours(const Json& table, const std::string& scene, const std::string& quan
     return -1.0;
 }
 
-TEST(FieldTables, AreNineAndComeAfterThoseOfVoxelRows) {
+TEST(FieldTables, AreTenAndComeAfterThoseOfVoxelRows) {
     Words names;
     for (const PaperTable& table : tables_of("visibility-field")) {
         names.emplace_back(table.name);
@@ -41,7 +41,8 @@ TEST(FieldTables, AreNineAndComeAfterThoseOfVoxelRows) {
     }
     EXPECT_EQ(names, (Words{"visibility-field/table1", "visibility-field/figure5", "visibility-field/figure6",
                             "visibility-field/figure7", "visibility-field/figure8", "visibility-field/figure9",
-                            "visibility-field/figure10", "visibility-field/memory", "visibility-field/moving"}));
+                            "visibility-field/figure10", "visibility-field/memory", "visibility-field/moving",
+                            "visibility-field/area-lights"}));
     EXPECT_EQ(tables_of("voxel-rows").size() + names.size(), paper_tables().size());
     EXPECT_TRUE(tables_of("visibility").empty());
 }
@@ -130,6 +131,26 @@ TEST(FieldTables, BakeMomentsFromWhatStandsStill) {
     EXPECT_LT(cells, 100.0);
     EXPECT_GT(rays, 0.0);
     EXPECT_LT(rays, 30.0);
+}
+
+TEST(FieldTables, SayWhatCellsSaveOfSegmentsToAreaLights) {
+    const ProgramRun run = quick("visibility-field/area-lights", fresh_folder(), {"--scene", "cornell"});
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    const Json table = Json::parse(run.output);
+    EXPECT_EQ(ours(table, "cornell", "triangles that shine", 0.0), 2.0);
+    for (const char* quantity : {"time without the field", "time with the field", "speed-up of area lights"})
+        EXPECT_GT(ours(table, "cornell", quantity, 0.0), 0.0) << quantity;
+    const double needed = ours(table, "cornell", "segments that need a ray", 0.0),
+                 without = ours(table, "cornell", "RMSE without the field", 0.0),
+                 with = ours(table, "cornell", "RMSE with the field", 0.0);
+    EXPECT_GT(needed, 0.0);
+    EXPECT_LT(needed, 60.0);
+    EXPECT_GT(without, 0.0);
+    EXPECT_LT(without, 30.0);
+    EXPECT_NEAR(with, without, 0.3 * without);
+    const ProgramRun dark = quick("visibility-field/area-lights", fresh_folder(), {"--scene", "trees"});
+    ASSERT_EQ(dark.exit_code, 0) << dark.errors;
+    EXPECT_EQ(ours(Json::parse(dark.output), "trees", "time with the field", 0.0), -1.0);
 }
 
 TEST(FieldTables, TakeTheirLightFromAPictureAndRefuseOneThatIsMissingBeforeMeasuring) {

@@ -74,6 +74,27 @@ TEST(OpenRays, PacketsFindWhatSingleRaysHit) {
     EXPECT_LT(found, 900);
 }
 
+TEST(OpenRays, ThatEndMeetOnlyWhatLiesBeforeTheirEnd) {
+    const Scene scene = test::triangle_soup(60);
+    const auto embree = test::built(scene);
+    RandomRays random(scene.bounds);
+    std::vector<float> lengths(count + 16);
+    for (std::uint32_t k = 0; k < count; ++k) lengths[k] = 2.0f * random_unit(9, k, 0);
+    PackedOpenRays rays = random.packed();
+    std::vector<std::uint32_t> endless(count / 32 + 1), ending(count / 32 + 1);
+    are_blocked(*embree, rays, endless);
+    rays.length_m = lengths.data();
+    are_blocked(*embree, rays, ending);
+    int freed = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const vec3 origin = random.origin(k), direction = random.direction(k);
+        const bool expected = test::any_crosses(scene, origin, origin + lengths[k] * direction, 0.0, 1.0);
+        ASSERT_EQ((ending[k / 32] >> (k % 32) & 1u) != 0, expected) << k;
+        freed += (endless[k / 32] >> (k % 32) & 1u) != 0 && !expected;
+    }
+    EXPECT_GT(freed, 50);
+}
+
 TEST(OpenRays, DoNotMeetTheSurfaceThatTheyLeave) {
     Scene scene = test::scene_with_material();
     test::add_quad(scene, {-50.0f, 0.0f, -50.0f}, {0.0f, 0.0f, 100.0f}, {100.0f, 0.0f, 0.0f});

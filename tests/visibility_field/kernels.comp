@@ -4,6 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/area_light.h"
 #include "shaders/harmonic_light.h"
 #include "shaders/one_bounce.h"
 #include "shaders/visibility_field.h"
@@ -22,6 +23,8 @@ struct Answer {
     float back;   // how far the direction is from the one that its octahedral place stands for
     float moment; // the sum of the nine polynomials
     float bounce; // what a surface with this normal sends back, the ray's direction as its colours
+    uint segment; // the decision of a segment to a light
+    float light;  // what it adds
 };
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Rays { Ray v[]; };
@@ -68,5 +71,8 @@ void main() {
     const vec3 second = second_direction(ray.normal, ray.direction);
     const vec3 sent = sent_back(second, abs(ray.direction), by_both.blocked);
     answer.bounce = sent.x + sent.y + sent.z;
+    const Decision segment = decide_segment(above, ray.position.x > 0.0f, ray.position.z > 0.0f);
+    answer.segment = (segment.trace ? 1u : 0u) | (segment.blocked ? 2u : 0u) | (segment.open ? 4u : 0u);
+    answer.light = segment_adds(abs(ray.position), 0.5f, 0.25f, 2.0f, 0.125f).y;
     answers.v[i] = answer;
 }

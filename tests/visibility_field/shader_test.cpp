@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "shaders/area_light.h"
 #include "shaders/harmonic_light.h"
 #include "shaders/one_bounce.h"
 #include "shaders/visibility_field.h"
@@ -23,6 +24,8 @@ struct ShaderRay {
 struct ShaderAnswer {
     std::uint32_t decisions, texel;
     float back, moment, bounce;
+    std::uint32_t segment;
+    float light;
 };
 
 /// Push constants of kernels.comp.
@@ -72,13 +75,20 @@ ShaderAnswer scalar_answer(const VisibilityField& field, const ShaderRay& ray) {
     for (const float moment : moments.of) sum += moment;
     const vec3 second = kernel::second_direction(ray.normal, ray.direction);
     const vec3 sent = kernel::sent_back(second, glm::abs(ray.direction), by_both.blocked);
-    return {bits_of(by_label) | bits_of(by_both) << 3u, static_cast<std::uint32_t>(texel), 0.0f, sum,
-            sent.x + sent.y + sent.z};
+    const kernel::Decision segment = kernel::decide_segment(above, ray.position.x > 0.0f, ray.position.z > 0.0f);
+    const vec3 light = kernel::segment_adds(glm::abs(ray.position), 0.5f, 0.25f, 2.0f, 0.125f);
+    return {bits_of(by_label) | bits_of(by_both) << 3u,
+            static_cast<std::uint32_t>(texel),
+            0.0f,
+            sum,
+            sent.x + sent.y + sent.z,
+            bits_of(segment),
+            light.y};
 }
 
 /// How the device's answers differ, and how often each bit is set.
 struct Tally {
-    int decisions = 0, texels = 0;
+    int decisions = 0, texels = 0, segments = 0;
     std::array<int, 6> set{};
 };
 
@@ -90,6 +100,8 @@ Tally tally(const VisibilityField& field, const std::vector<ShaderRay>& rays, co
         const ShaderAnswer expected = scalar_answer(field, rays[k]);
         counts.decisions += answer.decisions != expected.decisions;
         counts.texels += answer.texel != expected.texel;
+        counts.segments += answer.segment != expected.segment;
+        EXPECT_NEAR(answer.light, expected.light, 1e-5f);
         for (std::size_t bit = 0; bit < 6; ++bit) counts.set[bit] += (expected.decisions >> bit) & 1u;
         EXPECT_NEAR(answer.moment, expected.moment, 1e-4f);
         if (answer.decisions == expected.decisions) {
@@ -127,6 +139,7 @@ TEST(FieldShaders, AnswerAsTheScalarKernelsButForRounding) {
     const Tally counts = tally(field, rays, answers);
     EXPECT_LE(counts.decisions, 20);  // a thousandth
     EXPECT_LE(counts.texels, 20);
+    EXPECT_LE(counts.segments, 20);
     for (const int set : counts.set) {
         EXPECT_GT(set, 300);
         EXPECT_LT(set, 19'700);
