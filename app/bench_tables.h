@@ -79,6 +79,7 @@ void field_labels(MeasuredTable& table, BenchRun& run, Results& results, Progres
 void field_glossy(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 void field_memory(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 void field_moments(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
+void field_caching(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 }  // namespace tables
 
 }  // namespace sightlines

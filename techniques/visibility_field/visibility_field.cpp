@@ -9,6 +9,7 @@
 #include "techniques/base/error.h"
 #include "techniques/base/parallel.h"
 #include "techniques/visibility_field/denoise.h"
+#include "techniques/visibility_field/irradiance_cache.h"
 #include "techniques/visibility_field/map_sampling.h"
 #include "techniques/visibility_field/one_bounce.h"
 #include "techniques/visibility_field/weighted_samples.h"
@@ -28,7 +29,7 @@ constexpr std::array<std::string_view, 4> samplings{"cosine", "brdf", "map", "bo
 constexpr std::array<std::string_view, 2> light_sources{"harmonics", "map"};
 constexpr std::array<std::string_view, 2> indirect_ways{"off", "once"};
 
-constexpr std::array<Parameter, 19> parameters{{
+constexpr std::array<Parameter, 21> parameters{{
     {"cell_size", "Cell size", "m", ParameterKind::real, ParameterAffects::structure, 0.01, 1000, 0.5, 0.5,
      "Side of a cell of the grid."},
     {"mask_size", "Mask size", "texels", ParameterKind::integer, ParameterAffects::structure, 8, 64, 18, 18,
@@ -82,6 +83,13 @@ constexpr std::array<Parameter, 19> parameters{{
      "Light of the surroundings by way of one other surface: what a blocked sample hits is lit by a ray of its own, which "
      "the masks of the cell that is hit cull.",
      indirect_ways},
+    {"cache_spacing", "Irradiance cache", "pixels", ParameterKind::integer, ParameterAffects::picture, 0, 16, 0, 0,
+     "The coarsest distance between pixels that are asked, rounded down to a power of two; those between are "
+     "interpolated where plane, normal and light agree. 0: all are asked, as glossy surfaces always are."},
+    {"cache_tolerance", "Cache tolerance", "%", ParameterKind::real, ParameterAffects::picture, 0, 100, 10,
+     std::nullopt,
+     "How much the brightness of asked pixels, the square root of their irradiance, may differ for others to be "
+     "interpolated between them, in percent of that of unshadowed surfaces."},
     {"denoise", "Denoising", "passes", ParameterKind::integer, ParameterAffects::picture, 0, most_denoising_passes, 0,
      0, "Passes of a filter that takes noise out of the irradiance and keeps edges; 0: none."},
     {"ray_order", "Order of rays", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 1, 0,
@@ -257,9 +265,6 @@ void denoise_picture(const EnvironmentRequest& asked, int passes, EnvironmentRes
     made.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Makes a picture of the request's samples.
-using Renderer = std::function<EnvironmentResult(const EnvironmentRequest&)>;
-
 RenderResult render_samples(const RenderRequest& request, const DenseField* dense, const Renderer& make) {
     const PatternPointer pattern = pattern_of(request);
     const SurfaceBuffer& surfaces = *request.surfaces;
@@ -300,22 +305,29 @@ Renderer with_indirect(const VisibilityField* field, const EmbreeScene& embree, 
     };
 }
 
+/// The same, of few pixels, where the request asks for a cache. Holds light that came by way of other surfaces, too.
+Renderer with_cache(const RenderRequest& request, Renderer make) {
+    const CacheOptions options{static_cast<int>(value_of(request.parameters, "cache_spacing")),
+                               static_cast<float>(value_of(request.parameters, "cache_tolerance") / 100.0)};
+    if (options.spacing == 0) return make;
+    return [=](const EnvironmentRequest& asked) { return render_cached(options, asked, make); };
+}
+
 RenderResult render(const Structure& structure, const RenderRequest& request, Progress& progress) {
     const BuiltField& built = built_field(structure);
+    const auto painted = [&](const DenseField* dense, const Renderer& make) {
+        return render_samples(request, dense,
+                              with_cache(request, with_indirect(&built.field, *built.embree, request, progress, make)));
+    };
     if (request.backend == Backend::vulkan) {
         const std::shared_ptr<const FieldOnDevice> device =
             built.on_device ? built.on_device : give_to_vulkan(&built.field, *built.embree, request.threads, progress);
-        return render_samples(request, nullptr,
-                              with_indirect(&built.field, *built.embree, request, progress,
-                                            [&](const EnvironmentRequest& asked) {
-                                                return render_on_vulkan(*device, asked, progress);
-                                            }));
+        return painted(nullptr,
+                       [&](const EnvironmentRequest& asked) { return render_on_vulkan(*device, asked, progress); });
     }
-    RenderResult result = render_samples(
-        request, built.dense ? &*built.dense : nullptr,
-        with_indirect(&built.field, *built.embree, request, progress, [&](const EnvironmentRequest& asked) {
-            return render_environment(&built.field, *built.embree, asked, progress);
-        }));
+    RenderResult result = painted(built.dense ? &*built.dense : nullptr, [&](const EnvironmentRequest& asked) {
+        return render_environment(&built.field, *built.embree, asked, progress);
+    });
     result.device = cpu_device(request.threads);
     return result;
 }

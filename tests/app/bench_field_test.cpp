@@ -33,7 +33,7 @@ double ours(const Json& table, const std::string& scene, const std::string& quan
     return -1.0;
 }
 
-TEST(FieldTables, AreNineAndComeAfterThoseOfVoxelRows) {
+TEST(FieldTables, AreTenAndComeAfterThoseOfVoxelRows) {
     Words names;
     for (const PaperTable& table : tables_of("visibility-field")) {
         names.emplace_back(table.name);
@@ -41,7 +41,8 @@ TEST(FieldTables, AreNineAndComeAfterThoseOfVoxelRows) {
     }
     EXPECT_EQ(names, (Words{"visibility-field/table1", "visibility-field/figure5", "visibility-field/figure6",
                             "visibility-field/figure7", "visibility-field/figure8", "visibility-field/figure9",
-                            "visibility-field/figure10", "visibility-field/memory", "visibility-field/moving"}));
+                            "visibility-field/figure10", "visibility-field/memory", "visibility-field/moving",
+                            "visibility-field/caching"}));
     EXPECT_EQ(tables_of("voxel-rows").size() + names.size(), paper_tables().size());
     EXPECT_TRUE(tables_of("visibility").empty());
 }
@@ -130,6 +131,25 @@ TEST(FieldTables, BakeMomentsFromWhatStandsStill) {
     EXPECT_LT(cells, 100.0);
     EXPECT_GT(rays, 0.0);
     EXPECT_LT(rays, 30.0);
+}
+
+TEST(FieldTables, AskFewerPixelsWithACacheTheWiderItIs) {
+    const ProgramRun run = quick("visibility-field/caching", fresh_folder(), {"--scene", "cornell"});
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    const Json table = Json::parse(run.output);
+    for (const char* quantity : {"time without field and cache", "time with field", "RMSE with field"})
+        EXPECT_GT(ours(table, "cornell", quantity, 0.0), 0.0) << quantity;
+    double before = 100.0;
+    for (const double spacing : {4.0, 8.0, 16.0}) {
+        for (const char* quantity : {"time with cache", "time with field and cache",
+                                     "speed-up by the cache, with field", "RMSE with field and cache"})
+            EXPECT_GT(ours(table, "cornell", quantity, spacing), 0.0) << quantity;
+        const double asked = ours(table, "cornell", "pixels asked", spacing);
+        EXPECT_GT(asked, 5.0);
+        EXPECT_LE(asked, before);
+        before = asked;
+    }
+    EXPECT_LT(before, 90.0);
 }
 
 TEST(FieldTables, TakeTheirLightFromAPictureAndRefuseOneThatIsMissingBeforeMeasuring) {
