@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t scenes_when_quick = 2;
 
-constexpr std::array<PaperTable, 23> all_tables{{
+constexpr std::array<PaperTable, 24> all_tables{{
     {"voxel-rows/table1", "errors of voxel rows and of imperfect shadow maps", 1, ChartKind::dots, "", false,
      tables::errors_by_scene},
     {"voxel-rows/table2", "errors by the number of lights", 2, ChartKind::curves, "lights", false,
@@ -62,6 +62,8 @@ constexpr std::array<PaperTable, 23> all_tables{{
      tables::field_moments, &xu_2022_paper},
     {"visibility-field/area-lights", "light of shining surfaces, with what cells know of them and without", -2,
      ChartKind::dots, "", true, tables::field_area_lights, &xu_2022_paper},
+    {"visibility-field/caching", "few pixels asked, the others interpolated", -1, ChartKind::dots, "pixels", true,
+     tables::field_caching, &xu_2022_paper},
 }};
 
 std::string setup_text(const BenchRun& run, const PaperTable& table) {

@@ -81,6 +81,7 @@ void field_memory(MeasuredTable& table, BenchRun& run, Results& results, Progres
 void field_indirect(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 void field_area_lights(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 void field_moments(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
+void field_caching(MeasuredTable& table, BenchRun& run, Results& results, Progress& progress);
 }  // namespace tables
 
 }  // namespace sightlines

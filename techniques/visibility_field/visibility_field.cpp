@@ -11,6 +11,7 @@
 #include "techniques/scene/moving_parts.h"
 #include "techniques/visibility_field/area_lights.h"
 #include "techniques/visibility_field/denoise.h"
+#include "techniques/visibility_field/irradiance_cache.h"
 #include "techniques/visibility_field/one_bounce.h"
 #include "techniques/visibility_field/weighted_samples.h"
 
@@ -29,7 +30,7 @@ constexpr std::array<std::string_view, 4> samplings{"cosine", "brdf", "map", "bo
 constexpr std::array<std::string_view, 2> light_sources{"harmonics", "map"};
 constexpr std::array<std::string_view, 2> indirect_ways{"off", "once"};
 
-constexpr std::array<Parameter, 21> parameters{{
+constexpr std::array<Parameter, 23> parameters{{
     {"cell_size", "Cell size", "m", ParameterKind::real, ParameterAffects::structure, 0.01, 1000, 0.5, 0.5,
      "Side of a cell of the grid."},
     {"mask_size", "Mask size", "texels", ParameterKind::integer, ParameterAffects::structure, 8, 64, 18, 18,
@@ -91,6 +92,13 @@ constexpr std::array<Parameter, 21> parameters{{
      indirect_ways},
     {"area_samples", "Area lights", "samples", ParameterKind::integer, ParameterAffects::picture, 0, 256, 0, 0,
      "That each pixel draws on the scene's surfaces that shine by themselves; 0: these light nothing."},
+    {"cache_spacing", "Irradiance cache", "pixels", ParameterKind::integer, ParameterAffects::picture, 0, 16, 0, 0,
+     "The coarsest distance between pixels that are asked, rounded down to a power of two; those between are "
+     "interpolated where plane, normal and light agree. 0: all are asked, as glossy surfaces always are."},
+    {"cache_tolerance", "Cache tolerance", "%", ParameterKind::real, ParameterAffects::picture, 0, 100, 10,
+     std::nullopt,
+     "How much the brightness of asked pixels, the square root of their irradiance, may differ for others to be "
+     "interpolated between them, in percent of that of unshadowed surfaces."},
     {"denoise", "Denoising", "passes", ParameterKind::integer, ParameterAffects::picture, 0, most_denoising_passes, 0,
      0, "Passes of a filter that takes noise out of the irradiance and keeps edges; 0: none."},
     {"ray_order", "Order of rays", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 1, 0,
@@ -267,9 +275,6 @@ void denoise_picture(const EnvironmentRequest& asked, int passes, EnvironmentRes
     made.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Makes a picture of the request's samples.
-using Renderer = std::function<EnvironmentResult(const EnvironmentRequest&)>;
-
 RenderResult render_samples(const RenderRequest& request, const DenseField* dense, const Renderer& make) {
     const PatternPointer pattern = pattern_of(request);
     const SurfaceBuffer& surfaces = *request.surfaces;
@@ -324,22 +329,29 @@ Renderer with_more_light(const BuiltField* built, const EmbreeScene& embree, con
                             with_indirect(built != nullptr ? &built->field : nullptr, embree, request, progress, make));
 }
 
+/// The same, of few pixels, where the request asks for a cache.
+Renderer with_cache(const RenderRequest& request, Renderer make) {
+    const CacheOptions options{static_cast<int>(value_of(request.parameters, "cache_spacing")),
+                               static_cast<float>(value_of(request.parameters, "cache_tolerance") / 100.0)};
+    if (options.spacing == 0) return make;
+    return [=](const EnvironmentRequest& asked) { return render_cached(options, asked, make); };
+}
+
 RenderResult render(const Structure& structure, const RenderRequest& request, Progress& progress) {
     const BuiltField& built = built_field(structure);
+    const auto painted = [&](const DenseField* dense, const Renderer& make) {
+        return render_samples(request, dense,
+                              with_cache(request, with_more_light(&built, *built.embree, request, progress, make)));
+    };
     if (request.backend == Backend::vulkan) {
         const std::shared_ptr<const FieldOnDevice> device =
             built.on_device ? built.on_device : give_to_vulkan(&built.field, *built.embree, request.threads, progress);
-        return render_samples(
-            request, nullptr,
-            with_more_light(&built, *built.embree, request, progress, [&](const EnvironmentRequest& asked) {
-                return render_on_vulkan(*device, asked, progress);
-            }));
+        return painted(nullptr,
+                       [&](const EnvironmentRequest& asked) { return render_on_vulkan(*device, asked, progress); });
     }
-    RenderResult result =
-        render_samples(request, built.dense ? &*built.dense : nullptr,
-                       with_more_light(&built, *built.embree, request, progress, [&](const EnvironmentRequest& asked) {
-                           return render_environment(&built.field, *built.embree, asked, progress);
-                       }));
+    RenderResult result = painted(built.dense ? &*built.dense : nullptr, [&](const EnvironmentRequest& asked) {
+        return render_environment(&built.field, *built.embree, asked, progress);
+    });
     result.device = cpu_device(request.threads);
     return result;
 }

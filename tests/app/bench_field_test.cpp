@@ -33,7 +33,7 @@ double ours(const Json& table, const std::string& scene, const std::string& quan
     return -1.0;
 }
 
-TEST(FieldTables, AreTenAndComeAfterThoseOfVoxelRows) {
+TEST(FieldTables, AreTwelveAndComeAfterThoseOfVoxelRows) {
     Words names;
     for (const PaperTable& table : tables_of("visibility-field")) {
         names.emplace_back(table.name);
@@ -41,8 +41,8 @@ TEST(FieldTables, AreTenAndComeAfterThoseOfVoxelRows) {
     }
     EXPECT_EQ(names, (Words{"visibility-field/table1", "visibility-field/figure5", "visibility-field/figure6",
                             "visibility-field/figure7", "visibility-field/figure8", "visibility-field/figure9",
-                            "visibility-field/figure10", "visibility-field/memory", "visibility-field/moving",
-                            "visibility-field/area-lights"}));
+                            "visibility-field/figure10", "visibility-field/memory", "visibility-field/indirect",
+                            "visibility-field/moving", "visibility-field/area-lights", "visibility-field/caching"}));
     EXPECT_EQ(tables_of("voxel-rows").size() + names.size(), paper_tables().size());
     EXPECT_TRUE(tables_of("visibility").empty());
 }
@@ -133,6 +133,19 @@ TEST(FieldTables, BakeMomentsFromWhatStandsStill) {
     EXPECT_LT(rays, 30.0);
 }
 
+TEST(FieldTables, SayWhatAFieldSavesOfSecondRays) {
+    const ProgramRun run = quick("visibility-field/indirect", fresh_folder(), {"--scene", "cornell"});
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    const Json table = Json::parse(run.output);
+    for (const char* quantity : {"time without the field", "time with the field", "speed-up"})
+        EXPECT_GT(ours(table, "cornell", quantity, 0.0), 0.0) << quantity;
+    const double second = ours(table, "cornell", "second rays traced", 0.0);
+    EXPECT_GT(second, 1.0);
+    EXPECT_LT(second, 99.0);
+    EXPECT_GE(ours(table, "cornell", "RMSE", 0.0), 0.0);
+    EXPECT_LT(ours(table, "cornell", "RMSE", 0.0), 10.0);
+}
+
 TEST(FieldTables, SayWhatCellsSaveOfSegmentsToAreaLights) {
     const ProgramRun run = quick("visibility-field/area-lights", fresh_folder(), {"--scene", "cornell"});
     ASSERT_EQ(run.exit_code, 0) << run.errors;
@@ -151,6 +164,25 @@ TEST(FieldTables, SayWhatCellsSaveOfSegmentsToAreaLights) {
     const ProgramRun dark = quick("visibility-field/area-lights", fresh_folder(), {"--scene", "trees"});
     ASSERT_EQ(dark.exit_code, 0) << dark.errors;
     EXPECT_EQ(ours(Json::parse(dark.output), "trees", "time with the field", 0.0), -1.0);
+}
+
+TEST(FieldTables, AskFewerPixelsWithACacheTheWiderItIs) {
+    const ProgramRun run = quick("visibility-field/caching", fresh_folder(), {"--scene", "cornell"});
+    ASSERT_EQ(run.exit_code, 0) << run.errors;
+    const Json table = Json::parse(run.output);
+    for (const char* quantity : {"time without field and cache", "time with field", "RMSE with field"})
+        EXPECT_GT(ours(table, "cornell", quantity, 0.0), 0.0) << quantity;
+    double before = 100.0;
+    for (const double spacing : {4.0, 8.0, 16.0}) {
+        for (const char* quantity : {"time with cache", "time with field and cache",
+                                     "speed-up by the cache, with field", "RMSE with field and cache"})
+            EXPECT_GT(ours(table, "cornell", quantity, spacing), 0.0) << quantity;
+        const double asked = ours(table, "cornell", "pixels asked", spacing);
+        EXPECT_GT(asked, 5.0);
+        EXPECT_LE(asked, before);
+        before = asked;
+    }
+    EXPECT_LT(before, 90.0);
 }
 
 TEST(FieldTables, TakeTheirLightFromAPictureAndRefuseOneThatIsMissingBeforeMeasuring) {
