@@ -46,9 +46,9 @@ struct SurfaceAt {
     vec3 position{0.0f};        ///< m
     vec3 normal{0.0f};          ///< unit geometric normal, turned against the ray
     vec3 shading_normal{0.0f};  ///< unit interpolated normal, on the same side
-    vec3 albedo{0.0f};          ///< linear diffuse reflectance; a metal keeps half of its colour (it would be black else)
-    vec3 emission{0.0f};        ///< radiance
-    vec2 gloss{1.0f, 0.0f};     ///< roughness and metalness
+    vec3 albedo{0.0f};       ///< linear diffuse reflectance; a metal keeps half of its colour (it would be black else)
+    vec3 emission{0.0f};     ///< radiance
+    vec2 gloss{1.0f, 0.0f};  ///< roughness and metalness
 };
 SurfaceAt surface_at(const Scene& scene, const Hit& hit, vec3 ray_direction);
 

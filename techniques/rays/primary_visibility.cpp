@@ -76,7 +76,8 @@ struct PrimaryRays {
         intersect_16(valid, embree, query, rays);
         for (int lane = 0; lane < packet_lanes; ++lane) {
             if (valid[lane] == 0 || rays.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
-            const Hit hit{rays.ray.tfar[lane], triangle_hit(embree, rays.hit.geomID[lane], rays.hit.primID[lane]),
+            const Hit hit{rays.ray.tfar[lane],
+                          triangle_hit(embree, rays.hit.geomID[lane], rays.hit.primID[lane]),
                           {rays.hit.u[lane], rays.hit.v[lane]}};
             const int x = left + lane % packet_side;
             const int y = top + lane / packet_side;
@@ -110,8 +111,7 @@ SurfaceAt surface_at(const Scene& scene, const Hit& hit, vec3 ray_direction) {
     const Material& material = scene.materials[scene.triangle_materials[hit.triangle]];
     surface.albedo = diffuse_albedo(scene, hit.triangle, barycentric);
     surface.gloss = {material.roughness, material.metallic};
-    surface.emission =
-        material.emissive * vec3(looked_up(scene, material.emissive_texture, hit.triangle, barycentric));
+    surface.emission = material.emissive * vec3(looked_up(scene, material.emissive_texture, hit.triangle, barycentric));
     return surface;
 }
 

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "techniques/compute/device.h"
-#include "techniques/scene/harmonics.h"
 #include "techniques/scene/environment_light.h"
+#include "techniques/scene/harmonics.h"
 #include "tests/visibility_field/scenes.h"
 
 namespace sightlines::visibility_field {
