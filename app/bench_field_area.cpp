@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 2> lit_scenes{"cornell", "tv"};
 constexpr int sight_rays = 64;
 constexpr int reference_samples = 256;
 
-constexpr FieldFigure lights{"triangles that shine", "", 0, false}, time_without{"time without the field", "ms", 1},
+constexpr FieldFigure shining{"triangles that shine", "", 0, false}, time_without{"time without the field", "ms", 1},
     time_with{"time with the field", "ms", 1}, speed_up{"speed-up of area lights", "×", 2, false},
     needed{"segments that need a ray", "%", 1, false}, error_without{"RMSE without the field", "%", 3, false},
     error_with{"RMSE with the field", "%", 3, false}, error_of_field{"RMSE of the field alone", "%", 3, false},
@@ -25,18 +25,22 @@ constexpr FieldFigure lights{"triangles that shine", "", 0, false}, time_without
 struct AreaBench {
     FieldMeasuring& m;
     const FieldScene& scene;
+    AreaLights lights;
     EnvironmentRequest request;
     SamplePattern pattern;
 
     AreaBench(FieldMeasuring& measuring, const FieldScene& of)
-        : m(measuring), scene(of), pattern(make_pattern(1, measuring.run.base.seed)) {
+        : m(measuring),
+          scene(of),
+          lights(find_area_lights(of.scene->value)),
+          pattern(make_pattern(1, measuring.run.base.seed)) {
         request.surfaces = &scene.surfaces->value;
         request.pattern = &pattern;
         request.threads = m.results.threads();
     }
     EnvironmentResult picture(const VisibilityField* field, const AreaSight* sight, int samples) const {
         EnvironmentResult result = blank_environment(request);
-        add_area_lights(field, sight, *scene.embree, scene.scene->value, request, samples, result, m.progress);
+        add_area_lights(field, sight, *scene.embree, scene.scene->value, lights, request, samples, result, m.progress);
         return result;
     }
     /// The mean of pictures with other samples.
@@ -85,7 +89,7 @@ void measure_area_lights(FieldMeasuring& m, const FieldScene& scene, const Field
                                                         }},
                                                        m.progress);
     const EnvironmentResult truth = bench.reference();
-    add_field_figure(m, scene, way, lights, static_cast<double>(find_area_lights(shown).triangles.size()));
+    add_field_figure(m, scene, way, shining, static_cast<double>(bench.lights.triangles.size()));
     add_field_figure(m, scene, way, time_without, milliseconds(seconds[0]));
     add_field_figure(m, scene, way, time_with, milliseconds(seconds[1]));
     add_field_figure(m, scene, way, speed_up, seconds[1] > 0.0 ? seconds[0] / seconds[1] : 0.0);

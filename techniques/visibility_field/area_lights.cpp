@@ -302,9 +302,8 @@ AreaSegment segment_to(const AreaLights& lights, const AreaPoint& point, vec3 po
 }
 
 void add_area_lights(const VisibilityField* field, const AreaSight* sight, const EmbreeScene& embree,
-                     const Scene& scene, const EnvironmentRequest& request, int samples, EnvironmentResult& result,
-                     Progress& progress) {
-    const AreaLights lights = find_area_lights(scene);
+                     const Scene& scene, const AreaLights& lights, const EnvironmentRequest& request, int samples,
+                     EnvironmentResult& result, Progress& progress) {
     if (lights.triangles.empty()) return;
     ImageRgb gained(request.surfaces->size);
     std::vector<vec2> even;

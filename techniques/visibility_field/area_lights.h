@@ -63,11 +63,11 @@ AreaPoint draw_point(const AreaLights& lights, vec2 numbers);
 /// `normal` (unit, geometric): of the surface, on the side that is lit. `lift_m`: as of rays from surfaces.
 AreaSegment segment_to(const AreaLights& lights, const AreaPoint& point, vec3 position, vec3 normal, float lift_m);
 
-/// Adds what `samples` points of the lights for each pixel bring to the irradiance and radiance of `result`, and the
-/// segments' rays to its pictures and counts of area rays. Without lights nothing happens. `field` and `sight` (both or
-/// neither null; the sight of the same lights): which segments need no ray.
+/// Adds what `samples` points of the scene's lights (find_area_lights) for each pixel bring to the irradiance and
+/// radiance of `result`, and the segments' rays to its pictures and counts of area rays. Without lights nothing
+/// happens. `field` and `sight` (both or neither null; the sight of the same lights): which segments need no ray.
 void add_area_lights(const VisibilityField* field, const AreaSight* sight, const EmbreeScene& embree,
-                     const Scene& scene, const EnvironmentRequest& request, int samples, EnvironmentResult& result,
-                     Progress& progress);
+                     const Scene& scene, const AreaLights& lights, const EnvironmentRequest& request, int samples,
+                     EnvironmentResult& result, Progress& progress);
 
 }  // namespace sightlines::visibility_field

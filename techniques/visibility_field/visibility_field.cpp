@@ -314,10 +314,11 @@ Renderer with_area_lights(const BuiltField* built, const EmbreeScene& embree, co
     const auto samples = static_cast<int>(value_of(request.parameters, "area_samples"));
     if (samples == 0) return make;
     assert(request.scene != nullptr);
+    const auto lights = std::make_shared<const AreaLights>(find_area_lights(*request.scene));
     return [=, &embree, &progress, scene = request.scene](const EnvironmentRequest& asked) {
         EnvironmentResult made = make(asked);
         add_area_lights(built != nullptr ? &built->field : nullptr, built != nullptr ? &built->area_sight : nullptr,
-                        embree, *scene, asked, samples, made, progress);
+                        embree, *scene, *lights, asked, samples, made, progress);
         return made;
     };
 }

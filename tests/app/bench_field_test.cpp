@@ -175,7 +175,7 @@ TEST(FieldTables, AskFewerPixelsWithACacheTheWiderItIs) {
     double before = 100.0;
     for (const double spacing : {4.0, 8.0, 16.0}) {
         for (const char* quantity : {"time with cache", "time with field and cache",
-                                     "speed-up by the cache, with field", "RMSE with field and cache"})
+                                     "speed-up by the cache", "RMSE with field and cache"})
             EXPECT_GT(ours(table, "cornell", quantity, spacing), 0.0) << quantity;
         const double asked = ours(table, "cornell", "pixels asked", spacing);
         EXPECT_GT(asked, 5.0);

@@ -65,7 +65,7 @@ struct Asked {
     }
     EnvironmentResult picture() {
         EnvironmentResult result = blank_environment(request);
-        add_area_lights(field, sight, *embree, scene, request, samples, result, progress);
+        add_area_lights(field, sight, *embree, scene, find_area_lights(scene), request, samples, result, progress);
         return result;
     }
     bool shows(std::size_t pixel) const { return surfaces.triangle[pixel] != no_triangle; }
@@ -427,7 +427,8 @@ TEST(AreaLights, WithoutAnyNothingIsAddedOrAsked) {
     EnvironmentResult result = blank_environment(asked.request);
     for (vec3& pixel : result.irradiance.pixels) pixel = vec3(0.5f);
     const EnvironmentResult before = result;
-    add_area_lights(nullptr, nullptr, *asked.embree, asked.scene, asked.request, 64, result, asked.progress);
+    add_area_lights(nullptr, nullptr, *asked.embree, asked.scene, find_area_lights(asked.scene), asked.request, 64,
+                    result, asked.progress);
     EXPECT_EQ(result.irradiance, before.irradiance);
     EXPECT_EQ(result.radiance, before.radiance);
     EXPECT_EQ(result.area_rays, SampleCounts{});
