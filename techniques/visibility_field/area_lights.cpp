@@ -175,17 +175,11 @@ void light_pixel(const Picture& picture, int x, int y, TileRoom& room) {
 }
 
 SampleCounts light_tile(const Picture& picture, int left, int top) {
-    const SurfaceBuffer& surfaces = *picture.request.surfaces;
     TileRoom room;
-    for_pixels_of_tile(surfaces.size, left, top, [&](int x, int y) { light_pixel(picture, x, y, room); });
+    for_pixels_of_tile(picture.request.surfaces->size, left, top,
+                       [&](int x, int y) { light_pixel(picture, x, y, room); });
     answer_waiting(picture, room);
-    for_pixels_of_tile(surfaces.size, left, top, [&](int x, int y) {
-        const auto pixel = static_cast<std::size_t>(y * surfaces.size.width + x);
-        if (surfaces.triangle[pixel] == no_triangle) return;
-        picture.result.irradiance.pixels[pixel] += picture.gained.pixels[pixel];
-        picture.result.radiance.pixels[pixel] =
-            reflected_radiance(picture.request, pixel, picture.result.irradiance.pixels[pixel]);
-    });
+    add_gained(picture.request, picture.gained, left, top, picture.result);
     return room.counts;
 }
 
@@ -311,13 +305,8 @@ void add_area_lights(const VisibilityField* field, const AreaSight* sight, const
         even.push_back(hammersley(k, static_cast<std::uint32_t>(samples)));
     const bool knows = sight != nullptr && sight->words > 0;
     const Picture picture{field, knows ? sight : nullptr, embree, scene, request, lights, even, result, gained};
-    EnvironmentRequest watched = request;
-    if (request.on_region)
-        watched.on_region = [&](const EnvironmentResult&, PixelRect changed) { request.on_region(result, changed); };
-    EnvironmentResult lit;
-    ask_tiles(watched, lit, progress, [&](int left, int top) { return light_tile(picture, left, top); });
-    result.area_rays = lit.counts;
-    result.seconds += lit.seconds;
+    result.area_rays =
+        go_over_tiles(request, result, progress, [&](int left, int top) { return light_tile(picture, left, top); });
 }
 
 }  // namespace sightlines::visibility_field

@@ -159,17 +159,11 @@ void follow_pixel(const Picture& picture, int x, int y, TileRoom& room) {
 }
 
 SampleCounts follow_tile(const Picture& picture, int left, int top) {
-    const SurfaceBuffer& surfaces = *picture.request.surfaces;
     TileRoom room;
-    for_pixels_of_tile(surfaces.size, left, top, [&](int x, int y) { follow_pixel(picture, x, y, room); });
+    for_pixels_of_tile(picture.request.surfaces->size, left, top,
+                       [&](int x, int y) { follow_pixel(picture, x, y, room); });
     answer_first(picture, room);
-    for_pixels_of_tile(surfaces.size, left, top, [&](int x, int y) {
-        const auto pixel = static_cast<std::size_t>(y * surfaces.size.width + x);
-        if (surfaces.triangle[pixel] == no_triangle) return;
-        picture.result.irradiance.pixels[pixel] += picture.gained.pixels[pixel];
-        picture.result.radiance.pixels[pixel] =
-            reflected_radiance(picture.request, pixel, picture.result.irradiance.pixels[pixel]);
-    });
+    add_gained(picture.request, picture.gained, left, top, picture.result);
     return room.counts;
 }
 
@@ -210,18 +204,14 @@ EnvironmentResult with_one_bounce(const VisibilityField* field, const EmbreeScen
     EnvironmentRequest asked = request;
     asked.keep_verdicts = true;
     EnvironmentResult result = make(asked);
-    if (request.on_region)
-        asked.on_region = [&](const EnvironmentResult&, PixelRect changed) { request.on_region(result, changed); };
     EnvironmentRequest white = request;
     white.map = nullptr;
     white.light = {};
     white.light.coefficient[0] = vec3(2.0f * std::sqrt(std::numbers::pi_v<float>));  // over Y00: 1 from everywhere
     ImageRgb gained(request.surfaces->size);
     const Picture picture{field, embree, scene, request, white, weighted_tables(white), result, gained};
-    EnvironmentResult second;
-    ask_tiles(asked, second, progress, [&](int left, int top) { return follow_tile(picture, left, top); });
-    result.second_rays = second.counts;
-    result.seconds += second.seconds;
+    result.second_rays =
+        go_over_tiles(request, result, progress, [&](int left, int top) { return follow_tile(picture, left, top); });
     if (!request.keep_verdicts) result.verdicts = {};
     return result;
 }

@@ -53,4 +53,30 @@ void ask_tiles(const EnvironmentRequest& request, EnvironmentResult& result, Pro
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Goes over a picture that is there already: as ask_tiles, but adds only its time to `result`, which who watches sees,
+/// and returns the counts.
+template <class AskTile>
+SampleCounts go_over_tiles(const EnvironmentRequest& request, EnvironmentResult& result, Progress& progress,
+                           const AskTile& ask_tile) {
+    EnvironmentRequest watched = request;
+    if (request.on_region)
+        watched.on_region = [&](const EnvironmentResult&, PixelRect changed) { request.on_region(result, changed); };
+    EnvironmentResult more;
+    ask_tiles(watched, more, progress, ask_tile);
+    result.seconds += more.seconds;
+    return more.counts;
+}
+
+/// Adds what the pixels of a tile gained to their irradiance, and shades them anew.
+inline void add_gained(const EnvironmentRequest& request, const ImageRgb& gained, int left, int top,
+                       EnvironmentResult& result) {
+    const SurfaceBuffer& surfaces = *request.surfaces;
+    for_pixels_of_tile(surfaces.size, left, top, [&](int x, int y) {
+        const auto pixel = static_cast<std::size_t>(y * surfaces.size.width + x);
+        if (surfaces.triangle[pixel] == no_triangle) return;
+        result.irradiance.pixels[pixel] += gained.pixels[pixel];
+        result.radiance.pixels[pixel] = reflected_radiance(request, pixel, result.irradiance.pixels[pixel]);
+    });
+}
+
 }  // namespace sightlines::visibility_field

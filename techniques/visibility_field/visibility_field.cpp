@@ -48,9 +48,7 @@ constexpr std::array<Parameter, 23> parameters{{
      "in steps of a third of a texel for masks of 18."},
     {"area_rays", "Rays to area lights", "", ParameterKind::integer, ParameterAffects::structure, 0, 4096, 0, 0,
      "Cast from each side of a cell to each part of the surfaces that shine by themselves, so that segments to it need "
-     "no ray "
-     "where "
-     "they agree. 0: all are traced, as always in scenes that move."},
+     "no ray where they agree. 0: all are traced, as always in scenes that move."},
     {"placement", "Placement", "", ParameterKind::choice, ParameterAffects::structure, 0, 1, 1, 0,
      "Where point samples lie: at random by area, as in the paper, or spread so that every cell and triangle has its "
      "share.",
@@ -87,8 +85,7 @@ constexpr std::array<Parameter, 23> parameters{{
      "The surroundings as harmonics of order 3, or the map itself with all its contrasts.", light_sources},
     {"indirect", "Indirect light", "", ParameterKind::choice, ParameterAffects::picture, 0, 1, 0, 0,
      "Light of the surroundings by way of one other surface: what a blocked sample hits is lit by a ray of its own, "
-     "which "
-     "the masks of the cell that is hit cull.",
+     "which the masks of the cell that is hit cull.",
      indirect_ways},
     {"area_samples", "Area lights", "samples", ParameterKind::integer, ParameterAffects::picture, 0, 256, 0, 0,
      "That each pixel draws on the scene's surfaces that shine by themselves; 0: these light nothing."},
