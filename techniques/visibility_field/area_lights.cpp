@@ -15,7 +15,6 @@
 #include "techniques/visibility_field/area_sight.h"
 #include "techniques/visibility_field/picture_tiles.h"
 #include "techniques/visibility_field/ray_list.h"
-#include "techniques/visibility_field/ray_order.h"
 #include "techniques/visibility_field/weighted_samples.h"
 
 namespace sightlines::visibility_field {
@@ -76,17 +75,10 @@ struct Picture {
     ImageRgb& gained;  ///< irradiance
 };
 
-/// A segment that waits for Embree: its pixel, and what that gains where nothing is in the way.
-struct Waiting {
-    std::uint32_t pixel = 0;
-    vec3 adds{0.0f};
-};
-
 struct TileRoom {
     SegmentList segments;
     std::vector<Waiting> waiting{};
-    std::vector<std::uint32_t> answers = std::vector<std::uint32_t>(most_waiting / 32 + 1);
-    SortingRoom sorting{};
+    AskingRoom asking{};
     SampleCounts counts{};
 };
 
@@ -107,16 +99,8 @@ vec3 reflected_times_pi(const SampledSurface& surface, vec3 direction) {
 }
 
 void answer_waiting(const Picture& picture, TileRoom& room) {
-    const std::span answers(room.answers);
-    if (picture.request.order == RayOrder::direction)
-        are_blocked_by_direction(picture.embree, room.segments.packed(), room.sorting, answers);
-    else
-        are_blocked(picture.embree, room.segments.packed(), answers);
-    for (std::size_t ray = 0; ray < room.segments.rays.count; ++ray) {
-        const bool blocked = (answers[ray / 32] >> (ray % 32) & 1u) != 0;
-        room.counts.traced_blocked += blocked ? 1 : 0;
-        if (!blocked) picture.gained.pixels[room.waiting[ray].pixel] += room.waiting[ray].adds;
-    }
+    room.counts.traced_blocked += gain_from_open(picture.embree, picture.request.order, room.segments.packed(),
+                                                 room.waiting, room.asking, picture.gained);
     room.segments.rays.count = 0;
     room.waiting.clear();
 }

@@ -37,9 +37,8 @@ struct AreaSight {
 
 /// How segments are cast.
 struct SightOptions {
-    int rays =
-        0;  ///< from each side of a cell to each part of the lights, fewer where both answers came; 0: nothing is
-    ///< baked
+    /// From each side of a cell to each part of the lights, fewer where both answers came; 0: nothing is baked.
+    int rays = 0;
     std::uint64_t seed = 1;
     int threads = 0;  ///< 0: all. Never changes the result
 };

@@ -8,11 +8,9 @@
 #include "shaders/one_bounce.h"
 #include "techniques/base/hammersley.h"
 #include "techniques/base/random.h"
-#include "techniques/rays/open_rays.h"
 #include "techniques/visibility_field/decide.h"
 #include "techniques/visibility_field/picture_tiles.h"
 #include "techniques/visibility_field/ray_list.h"
-#include "techniques/visibility_field/ray_order.h"
 #include "techniques/visibility_field/weighted_samples.h"
 
 namespace sightlines::visibility_field {
@@ -26,12 +24,6 @@ constexpr std::uint64_t second_ray_seed = 0x626f756e6365u;
 struct Blocked {
     std::uint32_t pixel = 0;
     vec3 weight{0.0f};
-};
-
-/// A second ray that waits for Embree: its sample's pixel, and what that gains where nothing is in the way.
-struct Waiting {
-    std::uint32_t pixel = 0;
-    vec3 adds{0.0f};
 };
 
 struct Picture {
@@ -50,8 +42,7 @@ struct TileRoom {
     std::vector<Blocked> blocked{};
     std::vector<Waiting> waiting{};
     std::vector<Hit> hits = std::vector<Hit>(most_waiting);
-    std::vector<std::uint32_t> answers = std::vector<std::uint32_t>(most_waiting / 32 + 1);
-    SortingRoom sorting{};
+    AskingRoom asking{};
     SampleCounts counts{};
 };
 
@@ -68,16 +59,8 @@ kernel::Decision decide_second(const VisibilityField* field, const EnvironmentRe
 }
 
 void answer_second(const Picture& picture, TileRoom& room) {
-    const std::span answers(room.answers);
-    if (picture.request.order == RayOrder::direction)
-        are_blocked_by_direction(picture.embree, room.second.packed(), room.sorting, answers);
-    else
-        are_blocked(picture.embree, room.second.packed(), answers);
-    for (std::size_t ray = 0; ray < room.second.count; ++ray) {
-        const bool blocked = (answers[ray / 32] >> (ray % 32) & 1u) != 0;
-        room.counts.traced_blocked += blocked ? 1 : 0;
-        if (!blocked) picture.gained.pixels[room.waiting[ray].pixel] += room.waiting[ray].adds;
-    }
+    room.counts.traced_blocked += gain_from_open(picture.embree, picture.request.order, room.second.packed(),
+                                                 room.waiting, room.asking, picture.gained);
     room.second.count = 0;
     room.waiting.clear();
 }
@@ -107,7 +90,7 @@ void light_hit(const Picture& picture, const Blocked& from, const SecondRay& ray
 void answer_first(const Picture& picture, TileRoom& room) {
     const PackedOpenRays rays = room.first.packed();
     if (picture.request.order == RayOrder::direction)
-        find_closest_by_direction(picture.embree, rays, room.sorting, room.hits);
+        find_closest_by_direction(picture.embree, rays, room.asking.sorting, room.hits);
     else
         find_closest(picture.embree, rays, room.hits);
     for (std::size_t k = 0; k < room.first.count; ++k) {

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "techniques/rays/open_rays.h"
+#include "techniques/visibility_field/ray_order.h"
+#include "techniques/visibility_field/render.h"
 
 namespace sightlines::visibility_field {
 
@@ -51,5 +52,33 @@ struct SegmentList {
         return packed;
     }
 };
+
+/// What a ray that waits is for: its pixel, and what that gains where nothing is in the way.
+struct Waiting {
+    std::uint32_t pixel = 0;
+    vec3 adds{0.0f};
+};
+
+/// What one thread needs to ask waiting rays.
+struct AskingRoom {
+    SortingRoom sorting{};
+    std::vector<std::uint32_t> answers = std::vector<std::uint32_t>(most_waiting / 32 + 1);
+};
+
+/// Asks the rays, at most most_waiting; the pixels of those that are open gain. Returns how many are blocked.
+inline std::uint64_t gain_from_open(const EmbreeScene& embree, RayOrder order, const PackedOpenRays& rays,
+                                    const std::vector<Waiting>& waiting, AskingRoom& room, ImageRgb& gained) {
+    if (order == RayOrder::direction)
+        are_blocked_by_direction(embree, rays, room.sorting, room.answers);
+    else
+        are_blocked(embree, rays, room.answers);
+    std::uint64_t all_blocked = 0;
+    for (std::size_t ray = 0; ray < rays.count; ++ray) {
+        const bool blocked = (room.answers[ray / 32] >> (ray % 32) & 1u) != 0;
+        all_blocked += blocked ? 1 : 0;
+        if (!blocked) gained.pixels[waiting[ray].pixel] += waiting[ray].adds;
+    }
+    return all_blocked;
+}
 
 }  // namespace sightlines::visibility_field
